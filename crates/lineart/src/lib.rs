@@ -1,1 +1,3 @@
 //! Applications on top of the kernel.
+
+pub mod drawing;

@@ -6,5 +6,12 @@
 extern crate alloc;
 
 pub mod bezier;
+pub mod buffer;
+pub mod curve;
 pub mod geometry;
+pub mod lfs;
+pub mod medial;
+#[cfg(feature = "alloc")]
+pub mod model;
+pub mod polynomial;
 pub mod scalar;

@@ -1,6 +1,8 @@
 //! Cubic Bézier curves (paper, Equation 1): evaluation, splitting, raising of lines and quadratics, hull test, closest
 //! point.
 
+pub mod critical;
 mod cubic;
+pub(crate) mod newton;
 
 pub use cubic::{Cubic, PowerBasis};

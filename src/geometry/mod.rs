@@ -4,6 +4,7 @@
 //! user units of the drawing, y downwards as in SVG; "left" is the direction (−y, x) of a tangent (x, y) throughout.
 
 mod aabb;
+pub mod hierarchy;
 mod point;
 mod segment;
 mod vector;

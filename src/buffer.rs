@@ -1,0 +1,137 @@
+//! Where results go: lent slices, fixed arrays, or vectors.
+//!
+//! The kernel allocates nothing. A function with a result of unbounded size takes a [`Store`]: a [`SliceStore`] over a
+//! slice that the caller lends, an `ArrayVec`, or (feature `alloc`) a `Vec`. A store that is full answers [`BufferFull`];
+//! nothing is lost silently.
+
+use core::fmt;
+
+/// The store cannot take one more item. Lend a larger slice and start again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BufferFull {
+    /// Items it can hold.
+    pub capacity: usize,
+}
+
+impl fmt::Display for BufferFull {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a buffer for {} items is full", self.capacity)
+    }
+}
+
+impl core::error::Error for BufferFull {}
+
+/// A growing list with a possible end, seen as a slice.
+pub trait Store<T> {
+    /// Appends an item.
+    ///
+    /// # Errors
+    /// [`BufferFull`] where there is no room.
+    fn push(&mut self, item: T) -> Result<(), BufferFull>;
+
+    /// The items so far.
+    fn items(&self) -> &[T];
+
+    /// The items so far, to change in place.
+    fn items_mut(&mut self) -> &mut [T];
+
+    /// Forgets all items after the first `len`.
+    fn shorten(&mut self, len: usize);
+}
+
+/// A [`Store`] in a slice that the caller lends.
+#[derive(Debug)]
+pub struct SliceStore<'a, T> {
+    slots: &'a mut [T],
+    len: usize,
+}
+
+impl<'a, T> SliceStore<'a, T> {
+    /// An empty store over these slots; what they held is overwritten.
+    pub fn new(slots: &'a mut [T]) -> Self {
+        Self { slots, len: 0 }
+    }
+
+    /// The items, for as long as the slots were lent.
+    pub fn into_items(self) -> &'a mut [T] {
+        let len = self.len;
+        self.slots.get_mut(..len).unwrap_or_default()
+    }
+}
+
+impl<T> Store<T> for SliceStore<'_, T> {
+    fn push(&mut self, item: T) -> Result<(), BufferFull> {
+        let capacity = self.slots.len();
+        let slot = self.slots.get_mut(self.len).ok_or(BufferFull { capacity })?;
+        *slot = item;
+        self.len += 1;
+        Ok(())
+    }
+
+    fn items(&self) -> &[T] {
+        self.slots.get(..self.len).unwrap_or_default()
+    }
+
+    fn items_mut(&mut self) -> &mut [T] {
+        self.slots.get_mut(..self.len).unwrap_or_default()
+    }
+
+    fn shorten(&mut self, len: usize) {
+        self.len = self.len.min(len);
+    }
+}
+
+impl<T, const N: usize> Store<T> for arrayvec::ArrayVec<T, N> {
+    fn push(&mut self, item: T) -> Result<(), BufferFull> {
+        self.try_push(item).map_err(|_| BufferFull { capacity: N })
+    }
+
+    fn items(&self) -> &[T] {
+        self
+    }
+
+    fn items_mut(&mut self) -> &mut [T] {
+        self
+    }
+
+    fn shorten(&mut self, len: usize) {
+        self.truncate(len);
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T> Store<T> for alloc::vec::Vec<T> {
+    fn push(&mut self, item: T) -> Result<(), BufferFull> {
+        Self::push(self, item);
+        Ok(())
+    }
+
+    fn items(&self) -> &[T] {
+        self
+    }
+
+    fn items_mut(&mut self) -> &mut [T] {
+        self
+    }
+
+    fn shorten(&mut self, len: usize) {
+        self.truncate(len);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_slice_says_so() {
+        let mut slots = [0; 2];
+        let mut store = SliceStore::new(&mut slots);
+        assert_eq!(store.push(7), Ok(()));
+        assert_eq!(store.push(8), Ok(()));
+        assert_eq!(store.push(9), Err(BufferFull { capacity: 2 }));
+        assert_eq!(store.items(), [7, 8]);
+        store.shorten(1);
+        assert_eq!(store.into_items(), [7]);
+    }
+}

@@ -1,0 +1,107 @@
+//! Arcs: pieces of a cubic with monotone curvature and little turning, the leaves of the hierarchy.
+//!
+//! A cubic is cut at its inflections and at the extrema of its curvature, and then until no piece turns by more than 30°.
+//! On such a *spiral arc* the search for the point that bounds a tangent disk has one local optimum inside at most:
+//! inversion in the foot point turns the family of tangent disks into parallel half-planes and keeps vertices (extrema of
+//! curvature are a notion of circle geometry), so the arc's image is again a spiral, on which a linear function has at most
+//! one maximum inside unless the image turns by more than a full circle. See `docs/mathematics.md`.
+
+use super::Segment;
+use crate::bezier::critical;
+use crate::buffer::{BufferFull, Store};
+use crate::geometry::Aabb;
+use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
+
+/// A piece of a segment.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Arc<S> {
+    /// The segment.
+    pub segment: u32,
+    /// Parameters where it starts and ends, ascending.
+    pub span: [S; 2],
+    /// Turning accumulated along the strand at those two parameters; it falls along segments that the strand runs
+    /// through backwards.
+    pub turn: [S; 2],
+}
+
+/// Inner cut points of one cubic, ascending: inflections and vertices.
+type Cuts<S> = ArrayVec<S, 8>;
+
+/// Appends the arcs of a segment, without turning (which depends on the strand).
+///
+/// # Errors
+/// [`BufferFull`] where `arcs` cannot take them.
+pub(super) fn cut<S: Scalar>(
+    index: u32,
+    segment: &Segment<S>,
+    arcs: &mut impl Store<Arc<S>>,
+) -> Result<(), BufferFull> {
+    let mut cuts: Cuts<S> = ArrayVec::new();
+    let margin = S::unit_roundoff().mul_pow2(8);
+    let inside = |t: &S| *t > margin && *t < S::one() - &margin;
+    for t in critical::inflections(&segment.power).into_iter().chain(critical::vertices(&segment.power)) {
+        if inside(&t) && cuts.try_push(t).is_err() {
+            break;
+        }
+    }
+    cuts.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(core::cmp::Ordering::Equal));
+    // A cut closer than this to the one before it adds nothing.
+    let least = S::unit_roundoff().sqrt();
+    let mut from = S::zero();
+    for to in cuts.into_iter().chain([S::one()]) {
+        if to < S::one() && to.clone() - &from < least {
+            continue;
+        }
+        halve(index, segment, &from, &to, arcs)?;
+        from = to;
+    }
+    Ok(())
+}
+
+/// Halves [from, to] until each piece turns by at most 30°, at most 2^12 times.
+fn halve<S: Scalar>(
+    index: u32,
+    segment: &Segment<S>,
+    from: &S,
+    to: &S,
+    arcs: &mut impl Store<Arc<S>>,
+) -> Result<(), BufferFull> {
+    let mut ends: ArrayVec<S, 13> = ArrayVec::new();
+    ends.push(to.clone());
+    let mut start = from.clone();
+    while let Some(end) = ends.last().cloned() {
+        let (u, w) = (segment.tangent(&start), segment.tangent(&end));
+        // cos 30° squared is 3/4.
+        let cos = u.dot(&w);
+        let little = cos > S::zero() && cos.square() * &S::int(4) >= S::int(3);
+        if little || ends.is_full() {
+            arcs.push(Arc { segment: index, span: [start, end.clone()], turn: [S::zero(), S::zero()] })?;
+            start = end;
+            ends.pop();
+        } else if ends.try_push(S::midpoint(&start, &end)).is_err() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+impl<S: Scalar> Arc<S> {
+    /// A box around the arc: of its own control points.
+    pub fn bounds(&self, segment: &Segment<S>) -> Aabb<S> {
+        let [from, to] = &self.span;
+        let (_, right) = segment.cubic.split_at(from);
+        if *from >= S::one() {
+            return right.control_box();
+        }
+        let inner = (to.clone() - from) / &(S::one() - from);
+        let (piece, _) = right.split_at(&inner);
+        piece.control_box()
+    }
+
+    /// How much it turns: the length of the difference of its end tangents, a little less than the angle in radians.
+    pub fn turning(&self, segment: &Segment<S>) -> S {
+        let [from, to] = &self.span;
+        segment.tangent(from).minus(&segment.tangent(to)).norm()
+    }
+}

@@ -1,0 +1,145 @@
+//! Where the curve touches itself: crossings, T-junctions, overlaps.
+//!
+//! A stretch of curve of length h can meet another, non-local one only if that one comes nearer to its middle than h: so arcs
+//! are halved while something non-local is within reach, and what is left at the smallest size touches. No pair of pieces
+//! is looked at twice, and the cost is that of O(log) closest-point searches a contact.
+//!
+//! A contact is an interval of parameters, since strokes can coincide along a stretch. Touching means: nearer than
+//! [`reach`], a billionth of the diagonal (or a few roundoffs, where the scalar has fewer bits).
+
+use super::nearest::{Locality, nearest_non_local};
+use super::{Arc, Curve, CurveParam, JointKind, Segment};
+use crate::buffer::{BufferFull, Store};
+use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
+
+/// A stretch of a segment that touches some other part of C.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Contact<S> {
+    /// The segment.
+    pub segment: u32,
+    /// Where the contact starts and ends; the same parameter, nearly, at a crossing.
+    pub span: [S; 2],
+}
+
+impl<S: Scalar> Contact<S> {
+    /// The parameter in its middle.
+    pub fn middle(&self) -> S {
+        S::midpoint(&self.span[0], &self.span[1])
+    }
+}
+
+/// How near is touching, in user units.
+pub fn reach<S: Scalar>(curve: &Curve<'_, S>) -> S {
+    let billionth = S::one() / &S::int(1_000_000_000);
+    billionth.max(S::unit_roundoff().mul_pow2(3)) * curve.diagonal
+}
+
+/// Appends all contacts of one segment, by ascending parameter. Joints are none: what meets there is known.
+///
+/// # Errors
+/// [`BufferFull`] where `out` cannot take more.
+pub fn find<S: Scalar>(
+    curve: &Curve<'_, S>,
+    segment: u32,
+    out: &mut impl Store<Contact<S>>,
+) -> Result<(), BufferFull> {
+    let Some(s) = curve.segment(segment) else { return Ok(()) };
+    let finder = Finder { curve, reach: reach(curve), coarse: curve.diagonal.clone() / &S::int(100_000) };
+    let first = out.items().len();
+    for arc in curve.arcs_of(s) {
+        finder.arc(segment, s, arc, first, out)?;
+    }
+    Ok(())
+}
+
+struct Finder<'w, 'c, S> {
+    curve: &'w Curve<'c, S>,
+    reach: S,
+    /// Stretches of this size that touch at both ends and in the middle coincide.
+    coarse: S,
+}
+
+impl<S: Scalar> Finder<'_, '_, S> {
+    fn arc(
+        &self,
+        index: u32,
+        segment: &Segment<S>,
+        arc: &Arc<S>,
+        first: usize,
+        out: &mut impl Store<Contact<S>>,
+    ) -> Result<(), BufferFull> {
+        let mut from = arc.span[0].clone();
+        let mut pending: ArrayVec<S, 56> = ArrayVec::new();
+        pending.push(arc.span[1].clone());
+        while let Some(to) = pending.pop() {
+            let middle = S::midpoint(&from, &to);
+            let (a, b) = (segment.point(&from), segment.point(&to));
+            let length = a.distance(&b);
+            // An arc of at most 30° is less than 1.05 chords long, so half of it is within 0.55 chords of its middle.
+            let near = self.other(segment, arc, &middle, &(length.clone() * &S::ratio(3, 4) + &self.reach));
+            let Some(near) = near else {
+                from = to;
+                continue;
+            };
+            let small = length <= self.reach || middle <= from || middle >= to;
+            let same = !small
+                && length <= self.coarse
+                && near <= self.reach
+                && self.other(segment, arc, &from, &self.reach).is_some()
+                && self.other(segment, arc, &to, &self.reach).is_some();
+            if small || same {
+                if !self.at_corner(segment, &from, &to) {
+                    Self::add(index, &from, &to, first, out)?;
+                }
+                from = to;
+            } else if pending.remaining_capacity() >= 2 {
+                pending.push(to);
+                pending.push(middle);
+            } else {
+                from = to;
+            }
+        }
+        Ok(())
+    }
+
+    /// Distance from a point of the arc to what is not local to it, if below `limit`.
+    fn other(&self, segment: &Segment<S>, arc: &Arc<S>, t: &S, limit: &S) -> Option<S> {
+        let locality = Locality::on_arc(segment, arc, t);
+        let p = segment.point(t);
+        nearest_non_local(self.curve, &p, &locality, limit.clone().square()).map(|n| n.distance_sq.sqrt())
+    }
+
+    /// The stretch reaches a corner or joint of its own segment, where other branches meet it as a matter of course.
+    fn at_corner(&self, segment: &Segment<S>, from: &S, to: &S) -> bool {
+        let slack = self.reach.clone() * &S::int(4);
+        let near = |side: usize, t: &S| {
+            segment.end(side).kind == JointKind::Corner && segment.point(t).distance(segment.end_point(side)) <= slack
+        };
+        near(0, from) || near(1, to)
+    }
+
+    /// Adds a contact, or grows the last one that it continues.
+    fn add(
+        index: u32,
+        from: &S,
+        to: &S,
+        first: usize,
+        out: &mut impl Store<Contact<S>>,
+    ) -> Result<(), BufferFull> {
+        if out.items().len() > first
+            && let Some(last) = out.items_mut().last_mut()
+            && last.segment == index
+            && last.span[1] >= *from
+        {
+            last.span[1] = to.clone();
+            return Ok(());
+        }
+        out.push(Contact { segment: index, span: [from.clone(), to.clone()] })
+    }
+}
+
+/// The place in the middle of a contact.
+pub fn place<S: Scalar>(contact: &Contact<S>) -> CurveParam<S> {
+    CurveParam { segment: contact.segment, t: contact.middle() }
+}

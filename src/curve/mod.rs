@@ -1,0 +1,237 @@
+//! The curve C: a finite set of piecewise cubic paths, made from a drawing once, at the door.
+//!
+//! Real drawings close with lines of 1e-16, repeat a stroke, kink by 0.01° where they mean to be smooth, and hide cusps in
+//! cubics. [`door`] settles all of this once; everything behind it speaks of the C that it makes:
+//!
+//! * [`Segment`]s, each a cubic that knows its joints, its [`Source`] in the drawing and its arcs;
+//! * **joints** ([`joint`]): where ends meet, as circular lists of [`EndId`]s, each [`JointKind::Open`], `Smooth` or
+//!   `Corner`. Topology knows no distances: it is settled at the door and only followed afterwards;
+//! * [`Arc`]s ([`arc`]): pieces of monotone curvature with little turning, the leaves of one bounding hierarchy;
+//! * **strands**: maximal chains of smoothly joined segments, along which turning is accumulated. Two pieces of curve are
+//!   *local* to each other if less than about one radian of turning lies between them on one strand: such a stretch cannot
+//!   come back to itself, so only non-local pieces can come near ([`nearest`], [`contact`]).
+
+pub mod arc;
+pub mod contact;
+pub mod door;
+pub mod joint;
+pub mod nearest;
+mod twin;
+
+use crate::bezier::{Cubic, PowerBasis};
+use crate::geometry::hierarchy::{Hierarchy, Node};
+use crate::geometry::{Point, Vector};
+use crate::scalar::Scalar;
+pub use arc::Arc;
+pub use joint::{EndId, JointEnd, JointKind};
+
+/// A place on the curve: a segment of C and a parameter in [0, 1] of it.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct CurveParam<S> {
+    /// Index into [`Curve::segments`].
+    pub segment: u32,
+    /// Parameter of that segment's cubic.
+    pub t: S,
+}
+
+/// Where a segment of C comes from in the drawing, to translate parameters back.
+///
+/// A cubic is split at exact cusps: the segment is the window [`from`, `to`] of its source. A straight cubic with uneven
+/// speed is run through at uniform speed instead: `handles` are the positions of its inner control points along the
+/// line, in [0, 1] (1/3 and 2/3 for uniform speed).
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Source<S> {
+    /// Index into the path's list of cubics as it came to the door.
+    pub segment: u32,
+    /// Parameter of the source where the segment starts.
+    pub from: S,
+    /// Parameter of the source where it ends.
+    pub to: S,
+    /// Inner control points along a straight source.
+    pub handles: Option<[S; 2]>,
+}
+
+impl<S: Scalar> Source<S> {
+    /// The source's parameter of the point that the segment has at t.
+    ///
+    /// Exact to a few units of roundoff for a window, to 2^−BITS of the line's length for a straight source (bisection).
+    pub fn parameter(&self, t: &S) -> S {
+        let t = self.handles.as_ref().map_or_else(|| t.clone(), |handles| uneven_parameter(handles, t));
+        if t >= S::one() {
+            return self.to.clone();
+        }
+        (self.to.clone() - &self.from) * &t + &self.from
+    }
+}
+
+/// Solves 3α s(1−s)² + 3β s²(1−s) + s³ = x for s in [0, 1], where 0 ≤ α ≤ β ≤ 1 (the left side is monotone).
+fn uneven_parameter<S: Scalar>([alpha, beta]: &[S; 2], x: &S) -> S {
+    let (mut lo, mut hi) = (S::zero(), S::one());
+    if *x <= lo {
+        return lo;
+    }
+    if *x >= hi {
+        return hi;
+    }
+    let three = S::int(3);
+    for _ in 0..S::BITS + 8 {
+        let s = S::midpoint(&lo, &hi);
+        let r = S::one() - &s;
+        let a = alpha.clone() * &three * &r * &r;
+        let b = beta.clone() * &three * &r * &s;
+        let along = (a + &b + &s.clone().square()) * &s;
+        if along < *x {
+            lo = s;
+        } else {
+            hi = s;
+        }
+    }
+    S::midpoint(&lo, &hi)
+}
+
+/// One cubic of C.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Segment<S> {
+    /// Its control points.
+    pub cubic: Cubic<S>,
+    /// The same cubic in powers of t.
+    pub power: PowerBasis<S>,
+    /// Index into [`Curve::paths`].
+    pub path: u32,
+    /// Where it comes from.
+    pub source: Source<S>,
+    /// Its two ends: at t = 0 and at t = 1.
+    pub ends: [JointEnd<S>; 2],
+    /// First arc, and how many there are; none for a twin.
+    pub arcs: (u32, u32),
+    /// A segment that another one repeats exactly: only that other one is an obstacle.
+    pub twin: Option<Twin>,
+    /// The strand it belongs to.
+    pub strand: u32,
+    /// Turning along the whole strand if it is a closed loop, else 0.
+    pub loop_turn: S,
+}
+
+/// The segment that a repeated one coincides with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Twin {
+    /// Index of the segment that stands for both.
+    pub segment: u32,
+    /// The two run in opposite directions.
+    pub reversed: bool,
+}
+
+/// A path of C: consecutive segments.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Path {
+    /// Index of the path as it came to the door.
+    pub source: u32,
+    /// First segment.
+    pub first: u32,
+    /// Number of segments, at least 1.
+    pub count: u32,
+    /// The last segment ends where the first one starts.
+    pub closed: bool,
+}
+
+/// The curve C, borrowed from the buffers that [`door::enter`] filled.
+#[derive(Clone, Copy, Debug)]
+pub struct Curve<'a, S> {
+    /// All cubics, path by path.
+    pub segments: &'a [Segment<S>],
+    /// All paths.
+    pub paths: &'a [Path],
+    /// All arcs, segment by segment, by ascending parameter.
+    pub arcs: &'a [Arc<S>],
+    /// The hierarchy over the arcs.
+    pub nodes: &'a [Node<S>],
+    /// Diagonal of the box of all control points of the drawing: the unit of relative tolerances.
+    pub diagonal: &'a S,
+    /// Largest error of a difference of two coordinates: a few roundoffs of the largest coordinate.
+    pub noise: &'a S,
+}
+
+impl<'a, S: Scalar> Curve<'a, S> {
+    /// A segment by its index.
+    #[inline]
+    pub fn segment(&self, index: u32) -> Option<&'a Segment<S>> {
+        self.segments.get(index as usize)
+    }
+
+    /// The hierarchy over the arcs; its items are indices into [`Self::arcs`].
+    #[inline]
+    pub const fn hierarchy(&self) -> Hierarchy<'a, S> {
+        Hierarchy::new(self.nodes)
+    }
+
+    /// The arcs of a segment.
+    #[inline]
+    pub fn arcs_of(&self, segment: &Segment<S>) -> &'a [Arc<S>] {
+        let (first, count) = segment.arcs;
+        self.arcs.get(first as usize..(first + count) as usize).unwrap_or_default()
+    }
+
+    /// One end of a segment.
+    #[inline]
+    pub fn end(&self, id: EndId) -> Option<&'a JointEnd<S>> {
+        self.segment(id.segment()).map(|s| s.end(id.side()))
+    }
+
+    /// The point at an end.
+    #[inline]
+    pub fn end_point(&self, id: EndId) -> Option<&'a Point<S>> {
+        self.segment(id.segment()).map(|s| s.end_point(id.side()))
+    }
+
+    /// All ends that meet in the joint of this one, itself first.
+    pub fn joint(&self, id: EndId) -> impl Iterator<Item = EndId> + 'a {
+        let segments = self.segments;
+        joint::members(id, move |e| segments.get(e.segment() as usize).map(|s| s.end(e.side()).next))
+    }
+
+    /// The point at a place, or `None` for a segment that does not exist.
+    pub fn point(&self, at: &CurveParam<S>) -> Option<Point<S>> {
+        self.segment(at.segment).map(|s| s.point(&at.t))
+    }
+}
+
+impl<S: Scalar> Segment<S> {
+    /// The end at t = 0 (side 0) or t = 1 (side 1).
+    #[inline]
+    pub const fn end(&self, side: usize) -> &JointEnd<S> {
+        let [start, end] = &self.ends;
+        if side == 0 { start } else { end }
+    }
+
+    /// The point of an end.
+    #[inline]
+    pub fn end_point(&self, side: usize) -> &Point<S> {
+        if side == 0 { self.cubic.start() } else { self.cubic.end() }
+    }
+
+    /// The point at t; the shared end points to the bit at 0 and 1.
+    #[inline]
+    pub fn point(&self, t: &S) -> Point<S> {
+        if *t >= S::one() { self.cubic.end().clone() } else { self.power.eval(t) }
+    }
+
+    /// Unit tangent at t, in the direction of growing t.
+    ///
+    /// At an end it is the direction that the joint settled; inside, C has no point without tangent (the door splits
+    /// exact cusps), and a derivative that vanishes by rounding answers with the chord's direction.
+    #[inline]
+    pub fn tangent(&self, t: &S) -> Vector<S> {
+        if *t <= S::zero() {
+            return self.end(0).leaving.clone();
+        }
+        if *t >= S::one() {
+            return self.end(1).leaving.opposite();
+        }
+        let d = self.power.derivative(t);
+        let n = d.norm();
+        if n > S::zero() && n.is_finite() {
+            return Vector::new(d.x / &n, d.y / &n);
+        }
+        d.unit().or_else(|| self.cubic.end().minus(self.cubic.start()).unit()).unwrap_or_else(|| self.end(0).leaving.clone())
+    }
+}

@@ -1,0 +1,210 @@
+//! The pencil of disks tangent at a foot point, seen from another segment, without cancellation.
+//!
+//! The disk through f with centre in direction d that touches the point q has the curvature
+//!
+//! ```text
+//! 1/r = 2 A/B   with   A = d·(q−f),   B = |q−f|².
+//! ```
+//!
+//! Along a segment q(t), A and the vector q−f are polynomials. Where q comes near f, both A and B vanish and the quotient of
+//! the plain differences is noise, so three forms are used:
+//!
+//! * **same segment** (DESIGN fact 4): with B(t) = a₀ + a₁t + a₂t² + a₃t³, everything is divided by (t−s)²:
+//!   Δ = a₁ + a₂(s+t) + a₃(s²+st+t²), A = d·left⁻¹… = E(t)/|B'(s)|, E = N(s)·(a₂ + a₃(2s+t)), N = left(B'(s)). As t → s
+//!   this is half the curvature;
+//! * **across a joint** e: with u = s−e on f's segment F and v = t−e' on q's segment Q,
+//!   q−f = v b₁ + v² b₂ + v³ b₃ − u D_F and, if the joint is smooth,
+//!   N(s)·(q−f) = u² E_F(s,e) + u v M×D_Q ± μ v² N_Q·(b₂ + v b₃): each term is small by itself, none is a difference of
+//!   large ones. Here D_F = (B_F(s)−B_F(e))/u, M = (B_F'(s)−B_F'(e))/u, μ = |B_F'(e)|/|B_Q'(e')|, and the sign says whether
+//!   the two segments run the same way;
+//! * **anything else**: plain differences, from whose A the noise of the coordinates is subtracted, so that rounding never
+//!   makes a disk collapse.
+//!
+//! Sources: DESIGN section 3, fact 4; divided differences across joints, specification of certificates, section
+//! "Formulation that worked", 5.
+
+use super::foot::{Foot, Side};
+use crate::curve::{Curve, EndId, JointKind, Segment};
+use crate::geometry::Vector;
+use crate::scalar::Scalar;
+
+/// A(v) and Δ(v) for one foot and one segment, v = t − shift. 1/r = 2A/|Δ|².
+#[derive(Clone, Debug)]
+pub(super) struct Pencil<S> {
+    /// Coefficients of A, ascending.
+    a: [S; 4],
+    /// Coefficients of Δ, ascending.
+    delta: [Vector<S>; 4],
+    /// Parameter of the segment where v = 0.
+    pub(super) shift: S,
+}
+
+/// Values of a pencil at one parameter.
+pub(super) struct Values<S> {
+    /// A: positive where a disk in direction d can touch.
+    pub(super) a: S,
+    /// B = |Δ|².
+    pub(super) b: S,
+    /// A'B − AB': has the sign of the derivative of A/B.
+    pub(super) slope: S,
+}
+
+impl<S: Scalar> Pencil<S> {
+    /// The pencil of `foot` seen from the segment with this index. `t` says which part of it is of interest: only its
+    /// precision depends on that.
+    #[inline]
+    pub(super) fn new(curve: &Curve<'_, S>, foot: &Foot<S>, index: u32, segment: &Segment<S>, t: &S) -> Self {
+        let half = S::one().half();
+        let own = index == foot.at.segment;
+        let far_half = (*t > half) != (foot.at.t > half);
+        if own && foot.side != Side::Fan {
+            // A closed segment can come back to f at its other end: that is seen across the joint.
+            let closed = far_half && curve.joint(EndId::new(index, 0)).any(|e| e == EndId::new(index, 1));
+            if !closed {
+                return Self::own(foot, segment);
+            }
+        }
+        let near_end = foot.end.unwrap_or_else(|| EndId::new(foot.at.segment, usize::from(foot.at.t > half)));
+        for other in curve.joint(near_end) {
+            let same = other == near_end;
+            if other.segment() == index && (!same || foot.side == Side::Fan) {
+                let at_this_end = (other.side() == 1) == (*t > half);
+                if at_this_end {
+                    return Self::across(curve, foot, near_end, other, segment);
+                }
+            }
+        }
+        Self::plain(curve, foot, segment)
+    }
+
+    /// Plain differences.
+    fn plain(curve: &Curve<'_, S>, foot: &Foot<S>, segment: &Segment<S>) -> Self {
+        let [a1, a2, a3] = &segment.power.a;
+        let d = &foot.direction;
+        let origin = segment.power.origin.minus(&foot.point);
+        Self {
+            a: [d.dot(&origin) - curve.noise, d.dot(a1), d.dot(a2), d.dot(a3)],
+            delta: [origin, a1.clone(), a2.clone(), a3.clone()],
+            shift: S::zero(),
+        }
+    }
+
+    /// The foot's own segment, divided by (t−s)².
+    fn own(foot: &Foot<S>, segment: &Segment<S>) -> Self {
+        let [a1, a2, a3] = &segment.power.a;
+        let s = &foot.at.t;
+        let d1 = a2.plus_scaled(s, a3);
+        let d0 = a1.plus_scaled(s, &d1);
+        let e0 = foot.direction.dot(&a2.plus_scaled(&s.clone().twice(), a3));
+        let e1 = foot.direction.dot(a3);
+        Self {
+            a: [e0, e1, S::zero(), S::zero()],
+            delta: [d0, d1, a3.clone(), Vector::zero()],
+            shift: S::zero(),
+        }
+    }
+
+    /// Across the joint in which `near` (of the foot's segment) and `other` (of this segment) meet.
+    fn across(curve: &Curve<'_, S>, foot: &Foot<S>, near: EndId, other: EndId, segment: &Segment<S>) -> Self {
+        let shift = if other.side() == 0 { S::zero() } else { S::one() };
+        let [b1, b2, b3] = segment.power.taylor(&shift);
+        let d = &foot.direction;
+        let own = curve.segment(near.segment());
+        let smooth = own.is_some_and(|o| o.end(near.side()).kind == JointKind::Smooth);
+        // Along the common tangent the component of b₁ in direction d is exactly zero when f is the joint itself.
+        let on_joint = foot.end == Some(near);
+        if on_joint && foot.side != Side::Fan && smooth {
+            // A and B have the common factor v².
+            return Self {
+                a: [d.dot(&b2), d.dot(&b3), S::zero(), S::zero()],
+                delta: [b1, b2, b3, Vector::zero()],
+                shift,
+            };
+        }
+        if on_joint {
+            return Self {
+                a: [S::zero(), d.dot(&b1), d.dot(&b2), d.dot(&b3)],
+                delta: [Vector::zero(), b1, b2, b3],
+                shift,
+            };
+        }
+        let Some(own) = own else { return Self::plain(curve, foot, segment) };
+        let e = if near.side() == 0 { S::zero() } else { S::one() };
+        let s = &foot.at.t;
+        let u = s.clone() - &e;
+        let [c1, c2, c3] = &own.power.a;
+        // D_F(s,e) = c₁ + c₂(s+e) + c₃(s²+se+e²), E_F = N(s)·(c₂ + c₃(2s+e)); d is N(s)/|N(s)| up to its sign.
+        let sum = s.clone() + &e;
+        let d_f = c1.plus_scaled(&sum, c2).plus_scaled(&(sum.clone() * s + &e), c3);
+        let e_f = d.dot(&c2.plus_scaled(&(sum.clone() + s), c3));
+        let delta0 = d_f.scaled(&-u.clone());
+        let a0 = u.clone().square() * &e_f;
+        let speed_q = b1.norm();
+        if !smooth || !(foot.speed > S::zero() && speed_q > S::zero()) {
+            return Self { a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)], delta: [delta0, b1, b2, b3], shift };
+        }
+        // d·(q−e) with d written as the turned tangent at the joint plus what F's tangent turns on its way from there.
+        // Everything is relative to |N(s)| = speed; sigma is the side that d is on.
+        let tangent = own.power.derivative(s);
+        let sigma = if tangent.left().dot(d) < S::zero() { -S::one() } else { S::one() };
+        let k = sigma / &foot.speed;
+        let m = Vector::new(c2.x.clone().twice(), c2.y.clone().twice()).plus_scaled(&(sum * &S::int(3)), c3);
+        let tangent_e = own.power.derivative(&e);
+        let mu = tangent_e.norm() / &speed_q;
+        let mu = if tangent_e.dot(&b1) < S::zero() { -mu } else { mu };
+        let uk = u * &k;
+        let muk = mu * &k;
+        let a1 = m.cross(&b1) * &uk;
+        let a2 = m.cross(&b2) * &uk + &(b1.cross(&b2) * &muk);
+        let a3 = m.cross(&b3) * &uk + &(b1.cross(&b3) * &muk);
+        Self { a: [a0, a1, a2, a3], delta: [delta0, b1, b2, b3], shift }
+    }
+
+    /// A, B and the slope's sign at v = t − shift.
+    #[inline]
+    pub(super) fn at(&self, v: &S) -> Values<S> {
+        let (a, a_slope) = self.a_and_slope(v);
+        let (d, d_slope) = self.delta_and_slope(v);
+        let b = d.norm_sq();
+        let b_slope = d.dot(&d_slope).twice();
+        let slope = a_slope * &b - &(a.clone() * &b_slope);
+        Values { a, b, slope }
+    }
+
+    /// A'B − AB' and its derivative A''B − AB''.
+    #[inline]
+    pub(super) fn slope(&self, v: &S) -> (S, S) {
+        let (a, a_slope) = self.a_and_slope(v);
+        let (d, d_slope) = self.delta_and_slope(v);
+        let [_, _, a2, a3] = &self.a;
+        let [_, _, d2, d3] = &self.delta;
+        let three_v = v.clone() * &S::int(3);
+        let a_bend = (a3.clone() * &three_v + a2).twice();
+        let d_bend = d2.plus_scaled(&three_v, d3);
+        let b = d.norm_sq();
+        let b_slope = d.dot(&d_slope).twice();
+        // B'' = 2(|Δ'|² + Δ·Δ''), Δ'' = 2 (d₂ + 3 d₃ v).
+        let b_bend = (d_slope.norm_sq() + &d.dot(&d_bend).twice()).twice();
+        (a_slope * &b - &(a.clone() * &b_slope), a_bend * &b - &(a * &b_bend))
+    }
+
+    #[inline]
+    fn a_and_slope(&self, v: &S) -> (S, S) {
+        let [a0, a1, a2, a3] = &self.a;
+        let h2 = a3.clone() * v + a2;
+        let h1 = h2.clone() * v + a1;
+        let value = h1.clone() * v + a0;
+        let slope = (a3.clone() * v + &h2) * v + &h1;
+        (value, slope)
+    }
+
+    #[inline]
+    fn delta_and_slope(&self, v: &S) -> (Vector<S>, Vector<S>) {
+        let [d0, d1, d2, d3] = &self.delta;
+        let h2 = d2.plus_scaled(v, d3);
+        let h1 = d1.plus_scaled(v, &h2);
+        let value = d0.plus_scaled(v, &h1);
+        let slope = h1.plus_scaled(v, &h2.plus_scaled(v, d3));
+        (value, slope)
+    }
+}

@@ -1,0 +1,513 @@
+//! The walk around the curve that makes medial polylines.
+//!
+//! Every path is walked along its left side, forwards, and along its right side, backwards; open paths in one round, turning
+//! at their ends. Where the walk passes an outer corner or an open end it stops and lets the direction turn (a *fan*); at an
+//! inner corner, a crossing or a touching the polyline runs into the curve itself (m = f). So consecutive medial points
+//! belong together, and a polyline breaks only where a tangent disk is unbounded.
+//!
+//! **Steps.** [`Resolution::Steps`] is the paper's parameter: N equal parameter steps a segment, here with every joint,
+//! inflection and extremum of curvature added, since branches of the medial axis end there. [`Resolution::Tolerance`]
+//! refines until the polyline is a good copy of the medial axis *for lfs*. A cell between two feet, with length h, is
+//! halved while
+//!
+//! * a piece of curve that is not local to it comes nearer than h: anything the cell could have missed touches its disks
+//!   within that reach, so features are found at every scale;
+//! * the disks of its ends are bounded by different features and their centres differ by more than the tolerance (a branch
+//!   point lies between);
+//! * the middle medial point lies off the chord by more than the tolerance;
+//!
+//! and the cell still matters: h is above the floor of all lengths, and its radii are not above every lfs of the drawing.
+//! The tolerance is relative to the radius, because |p − m| ≥ r for every p ∈ C: an error below τ·r is a relative error of
+//! lfs below τ. The criterion is an estimate; what it has proved is tested against truth (`docs/accuracy.md`).
+
+use super::disk::{TangentDisk, tangent_disk};
+use super::foot::{Foot, Side};
+use crate::buffer::{BufferFull, Store};
+use crate::curve::contact::Contact;
+use crate::curve::joint::clockwise_rank;
+use crate::curve::nearest::{Locality, nearest_non_local};
+use crate::curve::{Arc, Curve, CurveParam, EndId, JointKind};
+use crate::geometry::{Point, Vector, distance_sq_to_segment};
+use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
+
+/// One vertex of a medial polyline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MedialPoint<S> {
+    /// Its foot on C; for a fan or a corner, the end of a segment.
+    pub at: CurveParam<S>,
+    /// The foot point f.
+    pub foot: Point<S>,
+    /// Which kind of foot.
+    pub side: Side,
+    /// The medial point m.
+    pub centre: Point<S>,
+    /// |m − f|.
+    pub radius: S,
+    /// Polyline number; consecutive points with the same number are joined by an edge.
+    pub polyline: u32,
+}
+
+impl<S: Scalar + Default> Default for MedialPoint<S> {
+    fn default() -> Self {
+        Self {
+            at: CurveParam::default(),
+            foot: Point::default(),
+            side: Side::Corner,
+            centre: Point::default(),
+            radius: S::default(),
+            polyline: 0,
+        }
+    }
+}
+
+/// How many feet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Resolution<S> {
+    /// Equal parameter steps a segment (the paper's N), at least 1.
+    Steps(u32),
+    /// As many as the relative error of lfs asks for, in (0, 1).
+    Tolerance(S),
+}
+
+/// Walks around one path and appends its medial points. `polyline` is the number that the first polyline gets; the number
+/// after the last one is returned.
+///
+/// `contacts` are the touchings of the whole curve, as [`crate::curve::contact::find`] gives them. `relevance` bounds lfs
+/// on all of C from above ([`relevance`]): larger disks are not refined.
+///
+/// # Errors
+/// [`BufferFull`] where `out` cannot take more.
+pub fn walk<S: Scalar>(
+    curve: &Curve<'_, S>,
+    path: u32,
+    resolution: &Resolution<S>,
+    contacts: &[Contact<S>],
+    relevance: &S,
+    polyline: u32,
+    out: &mut impl Store<MedialPoint<S>>,
+) -> Result<u32, BufferFull> {
+    let Some(path) = curve.paths.get(path as usize) else { return Ok(polyline) };
+    let mut walker = Walker::new(curve, resolution, contacts, relevance, polyline, out);
+    let last = path.first + path.count - 1;
+    for segment in path.first..=last {
+        walker.side(segment, Side::Left)?;
+        let next = if segment < last { Some(segment + 1) } else { path.closed.then_some(path.first) };
+        walker.turn(EndId::new(segment, 1), next.map(|n| EndId::new(n, 0)))?;
+    }
+    if path.closed {
+        walker.break_line();
+    }
+    for segment in (path.first..=last).rev() {
+        walker.side(segment, Side::Right)?;
+        let next = if segment > path.first { Some(segment - 1) } else { path.closed.then_some(last) };
+        walker.turn(EndId::new(segment, 0), next.map(|n| EndId::new(n, 1)))?;
+    }
+    walker.break_line();
+    Ok(walker.polyline)
+}
+
+/// An upper bound of lfs over all of C: lfs is 1-Lipschitz, and at a foot it is at most the radius of either disk there.
+///
+/// Infinite only if no disk at any segment's start is bounded.
+pub fn relevance<S: Scalar>(curve: &Curve<'_, S>) -> S {
+    let mut least = S::infinity();
+    for (segment, i) in curve.segments.iter().zip(0_u32..) {
+        if segment.twin.is_some() {
+            continue;
+        }
+        for side in [Side::Left, Side::Right] {
+            for t in [S::zero(), S::one().half()] {
+                let at = CurveParam { segment: i, t };
+                if let Some(foot) = Foot::normal(curve, at, side) {
+                    least = least.min(tangent_disk(curve, &foot, None).radius);
+                }
+            }
+        }
+    }
+    least + curve.diagonal
+}
+
+/// A foot that has been looked at.
+#[derive(Clone, Debug)]
+struct Station<S> {
+    at: CurveParam<S>,
+    foot: Point<S>,
+    direction: Vector<S>,
+    side: Side,
+    /// Finite, or there is no medial point.
+    radius: S,
+    centre: Point<S>,
+    /// The arc that bounds the disk, and where.
+    touch: Option<(u32, Point<S>)>,
+}
+
+/// A station at the far end of a cell that is still to be split or accepted.
+struct Pending<S> {
+    station: Station<S>,
+    /// Nothing that is not local comes nearer to the cell that ends here than its length.
+    clear: bool,
+}
+
+/// Halvings of a cell: 2^−56 of a segment is below every floor.
+const DEPTH: usize = 56;
+
+struct Walker<'w, 'c, S, Out> {
+    curve: &'w Curve<'c, S>,
+    resolution: &'w Resolution<S>,
+    contacts: &'w [Contact<S>],
+    relevance: &'w S,
+    polyline: u32,
+    /// The current polyline has a vertex.
+    started: bool,
+    /// Whether the last station was emitted by the element before, so that the next element need not repeat it.
+    joined: bool,
+    hint: Option<u32>,
+    /// Lengths below this are nothing.
+    floor: S,
+    out: &'w mut Out,
+}
+
+impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
+    fn new(
+        curve: &'w Curve<'c, S>,
+        resolution: &'w Resolution<S>,
+        contacts: &'w [Contact<S>],
+        relevance: &'w S,
+        polyline: u32,
+        out: &'w mut Out,
+    ) -> Self {
+        let billionth = S::one() / &S::int(1_000_000_000);
+        let floor = billionth.max(S::unit_roundoff().mul_pow2(2)) * curve.diagonal;
+        Self { curve, resolution, contacts, relevance, polyline, started: false, joined: false, hint: None, floor, out }
+    }
+
+    /// Ends the current polyline.
+    fn break_line(&mut self) {
+        if self.started {
+            self.polyline += 1;
+        }
+        self.started = false;
+        self.joined = false;
+    }
+
+    fn emit(&mut self, s: &Station<S>) -> Result<(), BufferFull> {
+        if !s.radius.is_finite() {
+            self.break_line();
+            return Ok(());
+        }
+        self.started = true;
+        self.out.push(MedialPoint {
+            at: s.at.clone(),
+            foot: s.foot.clone(),
+            side: s.side,
+            centre: s.centre.clone(),
+            radius: s.radius.clone(),
+            polyline: self.polyline,
+        })
+    }
+
+    /// Looks at a foot.
+    fn station(&mut self, foot: Foot<S>) -> Station<S> {
+        let TangentDisk { radius, touch } = tangent_disk(self.curve, &foot, self.hint);
+        if let Some(t) = &touch {
+            self.hint = Some(t.arc);
+        }
+        let touch = touch.and_then(|t| self.curve.point(&t.at).map(|p| (t.arc, p)));
+        let centre = if radius.is_finite() {
+            foot.point.plus_scaled(&radius, &foot.direction)
+        } else {
+            foot.point.clone()
+        };
+        Station { at: foot.at, foot: foot.point, direction: foot.direction, side: foot.side, radius, centre, touch }
+    }
+
+    /// A vertex on the curve itself.
+    fn on_curve(&self, at: CurveParam<S>) -> Option<Station<S>> {
+        let foot = self.curve.point(&at)?;
+        Some(Station {
+            at,
+            centre: foot.clone(),
+            foot,
+            direction: Vector::zero(),
+            side: Side::Corner,
+            radius: S::zero(),
+            touch: None,
+        })
+    }
+
+    /// One side of one segment, in the direction that keeps it on the left.
+    fn side(&mut self, index: u32, side: Side) -> Result<(), BufferFull> {
+        let curve = self.curve;
+        let Some(segment) = curve.segment(index) else { return Ok(()) };
+        if segment.twin.is_some() {
+            self.break_line();
+            return Ok(());
+        }
+        let arcs = curve.arcs_of(segment);
+        let forwards = side == Side::Left;
+        let start_t = if forwards { S::zero() } else { S::one() };
+        let Some(foot) = Foot::normal(curve, CurveParam { segment: index, t: start_t }, side) else { return Ok(()) };
+        let mut here = self.station(foot);
+        if !self.joined {
+            self.emit(&here)?;
+        }
+        let count = arcs.len();
+        for n in 0..count {
+            let Some(arc) = arcs.get(if forwards { n } else { count - 1 - n }) else { break };
+            let touched = self.contacts_in(index, arc);
+            let points = touched.len();
+            for m in 0..points {
+                let Some(contact) = touched.get(if forwards { m } else { points - 1 - m }) else { break };
+                let Some(there) = self.on_curve(CurveParam { segment: index, t: contact.middle() }) else { break };
+                here = self.cell(here, there, arc, side)?;
+            }
+            let t = if forwards { &arc.span[1] } else { &arc.span[0] };
+            let Some(foot) = Foot::normal(curve, CurveParam { segment: index, t: t.clone() }, side) else { break };
+            let there = self.station(foot);
+            here = self.cell(here, there, arc, side)?;
+        }
+        self.joined = true;
+        Ok(())
+    }
+
+    /// Contacts strictly inside an arc.
+    fn contacts_in(&self, segment: u32, arc: &Arc<S>) -> &'w [Contact<S>] {
+        let [from, to] = &arc.span;
+        let contacts = self.contacts;
+        let low = contacts
+            .partition_point(|c| c.segment < segment || (c.segment == segment && c.middle() <= *from));
+        let high = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.middle() < *to));
+        contacts.get(low..high).unwrap_or_default()
+    }
+
+    /// Emits everything after `from` up to and including `to`, which lie on one arc; gives back `to`.
+    fn cell(&mut self, from: Station<S>, to: Station<S>, arc: &Arc<S>, side: Side) -> Result<Station<S>, BufferFull> {
+        match self.resolution {
+            Resolution::Steps(n) => self.uniform_cell(from, to, *n, side),
+            Resolution::Tolerance(tolerance) => self.adaptive_cell(from, to, arc, side, tolerance),
+        }
+    }
+
+    fn uniform_cell(
+        &mut self,
+        from: Station<S>,
+        to: Station<S>,
+        steps: u32,
+        side: Side,
+    ) -> Result<Station<S>, BufferFull> {
+        let steps = i32::try_from(steps.clamp(1, 1 << 24)).unwrap_or(1);
+        let scale = S::int(steps);
+        let (a, b) = (from.at.t.clone(), to.at.t.clone());
+        let forwards = b > a;
+        // The first grid parameter strictly behind a, by search: the kernel has no floor function.
+        let grid = |k: i32| S::int(k) / &scale;
+        let (mut lo, mut hi) = (-1, steps + 1);
+        while hi - lo > 1 {
+            let k = lo + (hi - lo) / 2;
+            let beyond = if forwards { grid(k) > a } else { grid(k) >= a };
+            if beyond {
+                hi = k;
+            } else {
+                lo = k;
+            }
+        }
+        let mut k = if forwards { hi } else { lo };
+        while (0..=steps).contains(&k) {
+            let t = grid(k);
+            if if forwards { t >= b } else { t <= b } {
+                break;
+            }
+            if let Some(foot) = Foot::normal(self.curve, CurveParam { segment: to.at.segment, t }, side) {
+                let s = self.station(foot);
+                self.emit(&s)?;
+            }
+            k += if forwards { 1 } else { -1 };
+        }
+        self.emit(&to)?;
+        Ok(to)
+    }
+
+    fn adaptive_cell(
+        &mut self,
+        from: Station<S>,
+        to: Station<S>,
+        arc: &Arc<S>,
+        side: Side,
+        tolerance: &S,
+    ) -> Result<Station<S>, BufferFull> {
+        let mut here = from;
+        let mut pending: ArrayVec<Pending<S>, DEPTH> = ArrayVec::new();
+        pending.push(Pending { station: to, clear: false });
+        while let Some(mut top) = pending.pop() {
+            let length = here.foot.distance(&top.station.foot);
+            let (low, high) = if here.at.t < top.station.at.t {
+                (&here.at.t, &top.station.at.t)
+            } else {
+                (&top.station.at.t, &here.at.t)
+            };
+            let t = S::midpoint(low, high);
+            let apart = t > *low && t < *high;
+            if length > self.floor && apart && !pending.is_full() {
+                let at = CurveParam { segment: top.station.at.segment, t };
+                if !top.clear {
+                    top.clear = self.clear(arc, &at, &length);
+                }
+                if let Some(foot) = Foot::normal(self.curve, at, side) {
+                    let middle = self.station(foot);
+                    if !top.clear || self.rough(&here, &middle, &top.station, tolerance) {
+                        let clear = top.clear;
+                        pending.push(top);
+                        if pending.try_push(Pending { station: middle, clear }).is_ok() {
+                            continue;
+                        }
+                        let Some(back) = pending.pop() else { break };
+                        top = back;
+                    } else {
+                        self.emit(&middle)?;
+                    }
+                }
+            }
+            self.emit(&top.station)?;
+            here = top.station;
+        }
+        Ok(here)
+    }
+
+    /// Nothing that is not local to this place comes nearer than `length`.
+    fn clear(&self, arc: &Arc<S>, at: &CurveParam<S>, length: &S) -> bool {
+        let Some(segment) = self.curve.segment(at.segment) else { return true };
+        let locality = Locality::on_arc(segment, arc, &at.t);
+        let p = segment.point(&at.t);
+        nearest_non_local(self.curve, &p, &locality, length.clone().square()).is_none()
+    }
+
+    /// The polyline from a to b through m is not good enough yet.
+    fn rough(&self, a: &Station<S>, m: &Station<S>, b: &Station<S>, tolerance: &S) -> bool {
+        let (ra, rm, rb) = (&a.radius, &m.radius, &b.radius);
+        let least = ra.clone().min(rm.clone()).min(rb.clone());
+        if least >= *self.relevance || !least.is_finite() {
+            return false;
+        }
+        if !(ra.is_finite() && rm.is_finite() && rb.is_finite()) {
+            return true;
+        }
+        let allowed = least.max(self.floor.clone() * &S::int(100)) * tolerance;
+        let allowed_sq = allowed.twice().square();
+        if (!self.same_feature(a, m) || !self.same_feature(m, b)) && a.centre.distance_sq(&b.centre) > allowed_sq {
+            return true;
+        }
+        distance_sq_to_segment(&m.centre, &a.centre, &b.centre) > allowed_sq
+    }
+
+    /// The disks are bounded by the same or neighbouring arcs, or at nearly the same point.
+    fn same_feature(&self, a: &Station<S>, b: &Station<S>) -> bool {
+        match (&a.touch, &b.touch) {
+            (Some((i, p)), Some((j, q))) => {
+                i.abs_diff(*j) <= 1 && self.same_path(*i, *j) || p.distance_sq(q) <= a.foot.distance_sq(&b.foot)
+            }
+            _ => true,
+        }
+    }
+
+    fn same_path(&self, i: u32, j: u32) -> bool {
+        let path = |k: u32| {
+            let arc = self.curve.arcs.get(k as usize)?;
+            self.curve.segment(arc.segment).map(|s| s.path)
+        };
+        i == j || path(i) == path(j)
+    }
+
+    /// From the end of one segment, on its left side as it arrives there, to whatever comes next around the joint.
+    ///
+    /// `follows` is the end by which the walk goes on.
+    fn turn(&mut self, end: EndId, follows: Option<EndId>) -> Result<(), BufferFull> {
+        let curve = self.curve;
+        let Some(arriving) = curve.end(end) else { return Ok(()) };
+        if curve.segment(end.segment()).is_some_and(|s| s.twin.is_some()) {
+            self.break_line();
+            return Ok(());
+        }
+        if arriving.kind == JointKind::Smooth {
+            let next = curve.joint(end).nth(1);
+            if next != follows {
+                self.break_line();
+            }
+            return Ok(());
+        }
+        // The next branch clockwise: from the left side over ahead to the right side.
+        let mut next = end;
+        let mut best: Option<S> = None;
+        for e in curve.joint(end) {
+            let Some(branch) = curve.end(e) else { continue };
+            // A branch along the same line as the arriving one is no turn at all, its own reverse a full one.
+            let rank = if e == end { S::int(4) } else { clockwise_rank(&arriving.leaving, &branch.leaving) };
+            if best.as_ref().is_none_or(|b| rank < *b) {
+                best = Some(rank);
+                next = e;
+            }
+        }
+        let Some(branch) = curve.end(next) else { return Ok(()) };
+        let rank = best.unwrap_or_else(|| S::int(4));
+        // Half a turn has rank 2: more than that leaves room for a fan.
+        if rank > S::int(2) {
+            let first = arriving.leaving.left().opposite();
+            let last = branch.leaving.left();
+            if let Some(middle) = arriving.leaving.plus(&branch.leaving).opposite().unit() {
+                self.fan(end, first, middle, last)?;
+            }
+        } else {
+            let at = CurveParam { segment: end.segment(), t: if end.side() == 0 { S::zero() } else { S::one() } };
+            if let Some(corner) = self.on_curve(at) {
+                self.emit(&corner)?;
+            }
+        }
+        if follows.is_some_and(|f| f != next) || (follows.is_none() && next != end) {
+            self.break_line();
+        }
+        // The next side starts with its own normal, which the fan ended with, or which the corner point precedes.
+        self.joined = self.joined && rank > S::int(2);
+        Ok(())
+    }
+
+    /// The medial points of an end's directions from `first` over `middle` to `last`.
+    fn fan(&mut self, end: EndId, first: Vector<S>, middle: Vector<S>, last: Vector<S>) -> Result<(), BufferFull> {
+        let Some(mut here) = self.fan_station(end, first) else { return Ok(()) };
+        for to in [middle, last] {
+            let Some(to) = self.fan_station(end, to) else { continue };
+            let mut pending: ArrayVec<Station<S>, DEPTH> = ArrayVec::new();
+            pending.push(to);
+            while let Some(top) = pending.pop() {
+                let spread = here.direction.minus(&top.direction).norm();
+                let middle = here.direction.plus(&top.direction).unit().filter(|_| !pending.is_full());
+                if let Some(m) = middle.and_then(|d| self.fan_station(end, d)) {
+                    let split = match self.resolution {
+                        Resolution::Steps(n) => {
+                            let steps = S::int(i32::try_from((*n).clamp(16, 1 << 20)).unwrap_or(16));
+                            spread * &steps > S::int(4)
+                        }
+                        Resolution::Tolerance(tolerance) => {
+                            let narrow = spread <= S::unit_roundoff().mul_pow2(8);
+                            let quarter = S::one().mul_pow2(-2);
+                            !narrow && (spread > quarter || self.rough(&here, &m, &top, tolerance))
+                        }
+                    };
+                    if split && pending.remaining_capacity() >= 2 {
+                        pending.push(top);
+                        pending.push(m);
+                        continue;
+                    }
+                    self.emit(&m)?;
+                }
+                self.emit(&top)?;
+                here = top;
+            }
+        }
+        Ok(())
+    }
+
+    fn fan_station(&mut self, end: EndId, direction: Vector<S>) -> Option<Station<S>> {
+        let foot = Foot::fan(self.curve, end, direction)?;
+        Some(self.station(foot))
+    }
+}

@@ -1,0 +1,300 @@
+//! Isolation: brackets that hold exactly one root each, and clusters that cannot be told apart.
+//!
+//! Pieces of the interval are visited from left to right. The sign pattern of a piece's Bernstein coefficients decides:
+//! no sign variation, no root; one variation, one root; otherwise the piece is halved. A coefficient below the noise has
+//! no sign. Undecided coefficients *inside* a pattern only raise the possible number of variations and call for halving.
+//! Undecided coefficients at an *end* mean roots near that end: if b₀ … b₍ₖ₋₁₎ are at most E in modulus and the others
+//! all beyond m on one side, then p = 0 at s is possible only where the Bernstein weights of the latter, P(s) ≥ sᵏ,
+//! satisfy m·P ≤ E·(1−P), hence sᵏ ≤ E/(E+m): the roots, k at most by the rule of signs, lie in a short bracket at that
+//! end, and nothing is left for the rest of the piece.
+//!
+//! Noise falls toward 0 (it is Σ|aⱼ|xʲ in size), so before a bracket much nearer to 0 than its piece's reach is given up
+//! as a cluster, the polynomial is written anew on that bracket and isolation continues there.
+//!
+//! Work is bounded by a number of steps; what is left when they are spent is reported as clusters, never dropped.
+
+use super::Polynomial;
+use super::bernstein::{Piece, Signs};
+use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
+
+/// Pieces waiting while their left neighbours are searched, one for each level of halving. When there is no more room,
+/// those without roots are thrown out; the others are fewer than N by the rule of signs, but for noise.
+const PENDING: usize = 32;
+
+/// What a bracket holds.
+#[derive(Clone, Debug)]
+pub(super) enum Found<S> {
+    /// One root with a change of sign; where to start looking.
+    One(S),
+    /// As many roots as the number says at most, too close to tell apart; 0 where only noise is seen.
+    Cluster(usize),
+}
+
+/// A bracket with roots.
+#[derive(Clone, Debug)]
+pub(super) struct Isolated<S> {
+    /// Lower end.
+    pub(super) lower: S,
+    /// Upper end.
+    pub(super) upper: S,
+    /// Sign of p just below, 0 if unknown.
+    pub(super) before: i8,
+    /// Sign of p just above, 0 if unknown.
+    pub(super) after: i8,
+    /// The content.
+    pub(super) found: Found<S>,
+}
+
+/// What the coefficients of a piece say.
+enum Verdict<S> {
+    /// No root; the sign of p.
+    None(i8),
+    /// One root; the index i of the coefficient before the change, if the change is between neighbours.
+    One(Option<u32>),
+    /// Not decided: halve.
+    Halve,
+    /// All roots of the piece (k at most) lie within this share of its width from its lower end.
+    AtLower(S, usize),
+    /// The same from its upper end.
+    AtUpper(S, usize),
+    /// Everything is below the noise.
+    Noise,
+}
+
+/// Brackets in ascending order, as they are found.
+struct Record<S, const N: usize> {
+    found: ArrayVec<Isolated<S>, N>,
+    /// Sign of p at the right end of what has been searched so far.
+    sign: i8,
+}
+
+impl<S: Scalar, const N: usize> Record<S, N> {
+    /// A stretch was searched whose signs at its ends are these.
+    #[inline]
+    fn pass(&mut self, first: i8, last: i8) {
+        if let Some(previous) = self.found.last_mut() {
+            if previous.after == 0 {
+                previous.after = first;
+            }
+        }
+        self.sign = last;
+    }
+
+    /// One root between lower and upper.
+    #[inline]
+    fn one(&mut self, lower: S, upper: S, before: i8, start: S) {
+        self.pass(before, -before);
+        self.push(Isolated { lower, upper, before, after: -before, found: Found::One(start) });
+    }
+
+    /// Unresolved roots; joined to an unresolved neighbour which they touch.
+    #[cold]
+    fn cluster(&mut self, lower: S, upper: S, before: i8, after: i8, count: usize) {
+        if let Some(previous) = self.found.last_mut() {
+            if let Found::Cluster(other) = previous.found {
+                if previous.upper >= lower {
+                    previous.upper = upper;
+                    previous.after = after;
+                    previous.found = Found::Cluster(if other == 0 || count == 0 { 0 } else { other.max(count) });
+                    self.sign = after;
+                    return;
+                }
+            }
+        }
+        let before = if before == 0 { self.sign } else { before };
+        self.pass(before, after);
+        self.push(Isolated { lower, upper, before, after, found: Found::Cluster(count) });
+    }
+
+    /// Appends; where noise has made more brackets than there can be roots, the last one grows instead.
+    #[inline]
+    fn push(&mut self, next: Isolated<S>) {
+        if let Err(full) = self.found.try_push(next) {
+            let next = full.element();
+            if let Some(last) = self.found.last_mut() {
+                last.upper = next.upper;
+                last.after = next.after;
+                last.found = Found::Cluster(0);
+            }
+        }
+    }
+}
+
+/// Brackets of all roots of p on `first`, ascending; `p` is the polynomial the piece was made from and p(0) ≠ 0.
+#[inline]
+pub(super) fn isolate<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    first: Piece<S, N>,
+) -> ArrayVec<Isolated<S>, N> {
+    let mut record = Record { found: ArrayVec::new(), sign: 0 };
+    let mut pending: ArrayVec<Piece<S, N>, PENDING> = ArrayVec::new();
+    let mut current = Some(first);
+    let steps = 2 * N * (S::BITS as usize + 16);
+    for _ in 0..steps {
+        let Some(piece) = current.take().or_else(|| pending.pop()) else {
+            return record.found;
+        };
+        match judge(&piece) {
+            Verdict::None(sign) => record.pass(sign, sign),
+            Verdict::One(change) => {
+                let before = Signs::of(&piece.b, &piece.noise).at(0);
+                let start = crossing(&piece, change);
+                record.one(piece.lo, piece.hi, before, start);
+            }
+            Verdict::Halve => {
+                if pending.is_full() {
+                    make_room(&mut pending);
+                }
+                if pending.is_full() {
+                    record.cluster(piece.lo, piece.hi, 0, 0, 0);
+                    continue;
+                }
+                match piece.halves() {
+                    Ok((left, right)) => {
+                        pending.push(right);
+                        current = Some(left);
+                    }
+                    Err(piece) => record.cluster(piece.lo, piece.hi, 0, 0, 0),
+                }
+            }
+            unresolved => current = settle(p, piece, unresolved, &mut record),
+        }
+    }
+    for piece in current.into_iter().chain(pending.into_iter().rev()) {
+        record.cluster(piece.lo, piece.hi, 0, 0, 0);
+    }
+    record.found
+}
+
+/// Throws out waiting pieces without roots; no sign changes on them, so nothing else is lost.
+#[cold]
+fn make_room<S: Scalar, const N: usize>(pending: &mut ArrayVec<Piece<S, N>, PENDING>) {
+    pending.retain(|piece| !matches!(judge(piece), Verdict::None(_)));
+}
+
+/// Records a cluster, or writes p anew where that would show more.
+#[cold]
+fn settle<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    piece: Piece<S, N>,
+    verdict: Verdict<S>,
+    record: &mut Record<S, N>,
+) -> Option<Piece<S, N>> {
+    let signs = Signs::of(&piece.b, &piece.noise);
+    let last = u32::try_from(N).unwrap_or(1).saturating_sub(1);
+    let width = piece.hi.clone() - &piece.lo;
+    let (lower, upper, before, after, count) = match verdict {
+        Verdict::AtLower(share, count) => {
+            let upper = piece.lo.clone() + &(width * &share);
+            (piece.lo, upper, 0, signs.at(last), count)
+        }
+        Verdict::AtUpper(share, count) => {
+            let lower = piece.hi.clone() - &(width * &share);
+            (lower, piece.hi, signs.at(0), 0, count)
+        }
+        _ => (piece.lo, piece.hi, 0, 0, 0),
+    };
+    if lower < upper && upper.clone().mul_pow2(2) <= piece.reach {
+        if before != 0 {
+            record.pass(before, before);
+        }
+        return Some(Piece::seated(p, lower, upper));
+    }
+    record.cluster(lower, upper, before, after, count);
+    None
+}
+
+/// Reads the sign pattern of a piece.
+#[inline]
+fn judge<S: Scalar, const N: usize>(piece: &Piece<S, N>) -> Verdict<S> {
+    let signs = Signs::of(&piece.b, &piece.noise);
+    let full = Signs::full::<N>();
+    if signs.positive == full {
+        return Verdict::None(1);
+    }
+    if signs.negative == full {
+        return Verdict::None(-1);
+    }
+    if signs.decided() == full {
+        let changes = signs.changes();
+        return if changes.is_power_of_two() { Verdict::One(Some(changes.trailing_zeros())) } else { Verdict::Halve };
+    }
+    judge_noisy(piece, signs)
+}
+
+/// Reads a sign pattern with undecided coefficients in it.
+#[cold]
+fn judge_noisy<S: Scalar, const N: usize>(piece: &Piece<S, N>, signs: Signs) -> Verdict<S> {
+    let decided = signs.decided();
+    if decided == 0 {
+        return Verdict::Noise;
+    }
+    let size = u32::try_from(N).unwrap_or(0);
+    let leading = decided.trailing_zeros();
+    let trailing = decided.leading_zeros() - (u32::BITS - size);
+    // the most variations that any choice of the undecided signs inside the pattern can give
+    let (mut most, mut previous, mut gap) = (0, signs.at(leading), 1);
+    for i in leading + 1..size - trailing {
+        let sign = signs.at(i);
+        if sign == 0 {
+            gap += 1;
+        } else {
+            most += if sign == previous { gap & !1 } else { (gap - 1) | 1 };
+            (previous, gap) = (sign, 1);
+        }
+    }
+    match (leading, trailing, most) {
+        (0, 0, 1) => {
+            let changes = signs.changes();
+            Verdict::One((changes != 0).then(|| changes.trailing_zeros()))
+        }
+        (k, 0, 0) => match share(piece, decided, k) {
+            Some(share) => Verdict::AtLower(share, k as usize),
+            None => Verdict::Halve,
+        },
+        (0, k, 0) => match share(piece, decided, k) {
+            Some(share) => Verdict::AtUpper(share, k as usize),
+            None => Verdict::Halve,
+        },
+        _ => Verdict::Halve,
+    }
+}
+
+/// The share s of the width with sᵏ ≤ E/(E+m), rounded up to a power of two and doubled; `None` if it is not small.
+fn share<S: Scalar, const N: usize>(piece: &Piece<S, N>, decided: u32, k: u32) -> Option<S> {
+    let mut least = S::infinity();
+    for (i, c) in piece.b.iter().enumerate() {
+        if (decided >> i) & 1 == 1 {
+            least = least.min(c.clone().abs());
+        }
+    }
+    let target = piece.noise.clone() / &(piece.noise.clone() + &least);
+    let step = k.cast_signed();
+    let (mut share, mut power) = (S::one(), S::one());
+    for _ in 0..2 * S::BITS {
+        let smaller = power.clone().mul_pow2(-step);
+        if smaller < target {
+            break;
+        }
+        power = smaller;
+        share = share.half();
+    }
+    let share = share.twice();
+    (share <= S::one().mul_pow2(-2)).then_some(share)
+}
+
+/// Where the control polygon of a piece with one variation crosses zero: a first guess of the root.
+#[inline]
+fn crossing<S: Scalar, const N: usize>(piece: &Piece<S, N>, change: Option<u32>) -> S {
+    let width = piece.hi.clone() - &piece.lo;
+    let at = change.and_then(|i| {
+        let (b, next) = (piece.b.get(i as usize)?, piece.b.get(i as usize + 1)?);
+        let fraction = b.clone() / &(b.clone() - next);
+        Some((S::int(i.cast_signed()) + &fraction) / &S::int(i32::try_from(N - 1).ok()?))
+    });
+    match at {
+        Some(s) => width * &s + &piece.lo,
+        None => width.half() + &piece.lo,
+    }
+}

@@ -1,0 +1,245 @@
+//! The two interfaces: all real roots, and the roots in an interval.
+//!
+//! The isolator works on intervals 0 ≤ lo < hi of moderate size and needs p(0) ≠ 0. Everything else is brought there
+//! exactly: zeros of the lowest coefficients are roots at 0 and are divided out; negative roots are those of p(−x);
+//! roots beyond [`NEAR`] are reciprocals of those of the reversed polynomial in [1/hi, 1], where nothing can overflow and
+//! where leading coefficients that vanish or nearly vanish are roots at or near t = 0, that is, x = ∞.
+
+use super::bernstein::Piece;
+use super::isolate::isolate;
+use super::refine::refine;
+use super::Polynomial;
+use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
+use core::array::from_fn;
+use core::fmt;
+
+/// Intervals up to here are searched directly, larger ones through reciprocals.
+const NEAR: i32 = 16;
+
+/// What is known about the roots in a bracket.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RootKind {
+    /// One root with a change of sign.
+    Simple,
+    /// p touches zero without a change of sign, within its rounding error: a double root, two roots closer than can be
+    /// told, or a near miss.
+    Even,
+    /// A flat change of sign: a triple root, or three roots (of which two may be complex) closer than can be told.
+    Odd,
+    /// About this many roots, counted with multiplicity, closer to each other (or to an end of the interval asked for)
+    /// than can be told.
+    Cluster(u8),
+}
+
+impl RootKind {
+    /// The number of roots with multiplicity, as far as known.
+    #[inline]
+    pub const fn multiplicity(self) -> u8 {
+        match self {
+            Self::Simple => 1,
+            Self::Even => 2,
+            Self::Odd => 3,
+            Self::Cluster(k) => k,
+        }
+    }
+}
+
+/// A root or an indistinguishable group of roots; lower ≤ value ≤ upper.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root<S> {
+    /// The root; for a group, its mean.
+    pub value: S,
+    /// Lower end of the bracket (an estimate by error bounds, cut to the isolating interval).
+    pub lower: S,
+    /// Upper end of the bracket.
+    pub upper: S,
+    /// One root or several.
+    pub kind: RootKind,
+}
+
+/// Roots in ascending order, with disjoint brackets (they may share an end).
+pub type Roots<S, const N: usize> = ArrayVec<Root<S>, N>;
+
+/// Why there is no list of roots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RootsError {
+    /// A coefficient is infinite or not a number: check the input.
+    NotFinite,
+    /// All coefficients are zero: every number is a root. Not a mistake, an answer.
+    ZeroPolynomial,
+    /// The interval is empty, reversed, or its ends are not finite: pass lo < hi.
+    BadInterval,
+}
+
+impl fmt::Display for RootsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotFinite => "a coefficient of the polynomial is infinite or not a number",
+            Self::ZeroPolynomial => "the polynomial is zero: every number is a root",
+            Self::BadInterval => "the interval for the roots is empty or not finite",
+        })
+    }
+}
+
+impl core::error::Error for RootsError {}
+
+impl<S: Scalar, const N: usize> Polynomial<S, N> {
+    /// The roots in [0, 1], ascending.
+    ///
+    /// Roots at the ends belong to it; at 1, one that is outside by no more than rounding error is reported too.
+    ///
+    /// # Errors
+    /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
+    #[inline]
+    pub fn roots_in_unit(&self) -> Result<Roots<S, N>, RootsError> {
+        let weight = self.weight();
+        if Self::is_comfortable(&weight) && !self.coefficients[0].is_zero() {
+            let mut roots = Roots::new();
+            search(self, Piece::unit(self, &weight), &mut roots);
+            return Ok(roots);
+        }
+        self.roots_between(&S::zero(), &S::one())
+    }
+
+    /// The roots in [lo, hi], ascending.
+    ///
+    /// Roots at the ends belong to it, and so do roots beyond an end by no more than rounding error (then the value is
+    /// that end).
+    ///
+    /// # Errors
+    /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`], [`RootsError::BadInterval`].
+    #[cold]
+    pub fn roots_between(&self, lo: &S, hi: &S) -> Result<Roots<S, N>, RootsError> {
+        if !(lo.is_finite() && hi.is_finite() && lo < hi) {
+            return Err(RootsError::BadInterval);
+        }
+        self.prepared()?.search_line(lo, hi)
+    }
+
+    /// All real roots, ascending: those in [−R, R] with R = [`Polynomial::root_bound`], which holds them all. A root
+    /// whose value exceeds the range of the scalar is left out.
+    ///
+    /// # Errors
+    /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
+    pub fn real_roots(&self) -> Result<Roots<S, N>, RootsError> {
+        let p = self.prepared()?;
+        match p.root_bound() {
+            Some(bound) => p.search_line(&-bound.clone(), &bound),
+            None => Ok(Roots::new()),
+        }
+    }
+
+    /// Checked and scaled.
+    fn prepared(&self) -> Result<Self, RootsError> {
+        if !self.coefficients.iter().all(S::is_finite) {
+            return Err(RootsError::NotFinite);
+        }
+        if self.degree().is_none() {
+            return Err(RootsError::ZeroPolynomial);
+        }
+        Ok(self.normalised())
+    }
+
+    /// Divided by the highest power of x that divides it, and the exponent.
+    fn without_zeros(&self) -> (Self, usize) {
+        let zeros = self.coefficients.iter().take_while(|c| c.is_zero()).count();
+        let shifted = from_fn(|j| self.coefficients.get(j + zeros).cloned().unwrap_or_else(S::zero));
+        (Self::new(shifted), zeros)
+    }
+
+    /// Roots in [lo, hi], ends may be infinite; coefficients of comfortable size.
+    fn search_line(&self, lo: &S, hi: &S) -> Result<Roots<S, N>, RootsError> {
+        let zero = S::zero();
+        let (p, zeros) = self.without_zeros();
+        let mut roots = Roots::new();
+        if *lo < zero {
+            let mut negative = Roots::new();
+            let end = if *hi < zero { -hi.clone() } else { zero.clone() };
+            search_positive(&p.mirrored(), end, -lo.clone(), &mut negative);
+            for r in negative.into_iter().rev() {
+                push(&mut roots, Root { value: -r.value, lower: -r.upper, upper: -r.lower, kind: r.kind });
+            }
+        }
+        if zeros > 0 && *lo <= zero && zero <= *hi {
+            let kind = match zeros {
+                1 => RootKind::Simple,
+                2 => RootKind::Even,
+                3 => RootKind::Odd,
+                k => RootKind::Cluster(u8::try_from(k).unwrap_or(u8::MAX)),
+            };
+            push(&mut roots, Root { value: zero.clone(), lower: zero.clone(), upper: zero.clone(), kind });
+        }
+        if *hi > zero {
+            search_positive(&p, lo.clone().max(zero), hi.clone(), &mut roots);
+        }
+        Ok(roots)
+    }
+}
+
+/// Appends the roots of p on a piece.
+#[inline]
+fn search<S: Scalar, const N: usize>(p: &Polynomial<S, N>, piece: Piece<S, N>, roots: &mut Roots<S, N>) {
+    for isolated in isolate(p, piece) {
+        push(roots, refine(p, isolated));
+    }
+}
+
+/// Appends the roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.
+fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, roots: &mut Roots<S, N>) {
+    if hi <= S::int(NEAR) {
+        return search(p, Piece::seated(p, lo, hi), roots);
+    }
+    let one = S::one();
+    let mut near = Roots::new();
+    if lo < one {
+        search(p, Piece::seated(p, lo.clone(), one.clone()), &mut near);
+    }
+    let (reversed, _) = p.reversed().without_zeros();
+    let nearest = one.clone() / &lo.clone().max(one.clone());
+    let farthest = if hi.is_finite() { one.clone() / &hi } else { S::zero() };
+    let mut far = Roots::new();
+    if farthest < nearest {
+        search(&reversed, Piece::seated(&reversed, farthest, nearest), &mut far);
+    }
+    let reciprocal = |t: &S| (one.clone() / t).clamp(lo.clone(), hi.clone());
+    let mut far = far.into_iter().rev().filter(|r| !r.value.is_zero()).map(|r| Root {
+        value: reciprocal(&r.value),
+        lower: reciprocal(&r.upper),
+        upper: if r.lower.is_zero() { hi.clone() } else { reciprocal(&r.lower) },
+        kind: r.kind,
+    });
+    // a root at 1, found from both sides, is one root
+    if near.last().is_some_and(|r| r.upper >= one) {
+        if let (Some(left), Some(right)) = (near.pop(), far.next()) {
+            if right.lower <= one {
+                push(&mut near, joined(left, right));
+            } else {
+                push(&mut near, left);
+                push(&mut near, right);
+            }
+        }
+    }
+    for r in near.into_iter().chain(far) {
+        if r.value.is_finite() {
+            push(roots, r);
+        }
+    }
+}
+
+/// Two findings that meet at the boundary between two searches.
+fn joined<S: Scalar>(left: Root<S>, right: Root<S>) -> Root<S> {
+    let kind = if right.kind.multiplicity() > left.kind.multiplicity() { right.kind } else { left.kind };
+    Root { value: S::midpoint(&left.value, &right.value), lower: left.lower, upper: right.upper, kind }
+}
+
+/// Appends; there are never more roots than coefficients, and if noise made it so, the last bracket grows.
+#[inline]
+fn push<S: Scalar, const N: usize>(roots: &mut Roots<S, N>, root: Root<S>) {
+    if let Err(full) = roots.try_push(root) {
+        if let Some(last) = roots.last_mut() {
+            last.upper = full.element().upper;
+        }
+    }
+}

@@ -49,13 +49,7 @@ pub fn vertices<S: Scalar>(b: &PowerBasis<S>) -> ArrayVec<S, 5> {
     let slow = slowness(&size.a);
     let (d11, d12, d13) = (a1.norm_sq(), a1.dot(a2), a1.dot(a3));
     let (d22, d23, d33) = (a2.norm_sq(), a2.dot(a3), a3.norm_sq());
-    let speed = [
-        d11,
-        d12.mul_pow2(2),
-        d22.mul_pow2(2) + &(d13 * &S::int(6)),
-        d23 * &S::int(12),
-        d33 * &S::int(9),
-    ];
+    let speed = [d11, d12.mul_pow2(2), d22.mul_pow2(2) + &(d13 * &S::int(6)), d23 * &S::int(12), d33 * &S::int(9)];
     let mut p: [S; 6] = core::array::from_fn(|_| S::zero());
     let six = S::int(6);
     for (i, t) in twist.iter().enumerate() {
@@ -87,12 +81,7 @@ pub fn slowest<S: Scalar>(b: &PowerBasis<S>) -> ArrayVec<S, 3> {
 fn slowness<S: Scalar>(a: &[Vector<S>; 3]) -> [S; 4] {
     let [a1, a2, a3] = a;
     let (three, nine) = (S::int(3), S::int(9));
-    [
-        a1.dot(a2),
-        a1.dot(a3) * &three + &a2.norm_sq().twice(),
-        a2.dot(a3) * &nine,
-        a3.norm_sq() * &nine,
-    ]
+    [a1.dot(a2), a1.dot(a3) * &three + &a2.norm_sq().twice(), a2.dot(a3) * &nine, a3.norm_sq() * &nine]
 }
 
 /// p[i] += term.
@@ -133,5 +122,78 @@ impl<S: Scalar> Size<S> {
     /// All coefficients (products of two coefficients of the cubic, times small integers) are below the noise.
     fn is_negligible<const N: usize>(&self, p: &[S; N]) -> bool {
         p.iter().all(|c| c.clone().abs() <= self.noise)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bezier::Cubic;
+    use crate::geometry::Point;
+
+    fn cubic(p: [(f64, f64); 4]) -> PowerBasis<f64> {
+        let [a, b, c, d] = p.map(|(x, y)| Point::new(x, y));
+        Cubic::new(a, b, c, d).power_basis()
+    }
+
+    /// Brute force: sign changes of f on a fine grid.
+    fn changes(f: impl Fn(f64) -> f64) -> usize {
+        let n = 20_000;
+        let values: Vec<f64> = (0..=n).map(|i| f((f64::from(i) + 0.37) / (f64::from(n) + 1.0))).collect();
+        values.windows(2).filter(|w| (w[0] > 0.0) != (w[1] > 0.0)).count()
+    }
+
+    #[test]
+    fn symmetric_cases() {
+        let s_shape = cubic([(0.0, 0.0), (1.0, 1.0), (2.0, -1.0), (3.0, 0.0)]);
+        let found = inflections(&s_shape);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((found[0] - 0.5).abs() < 1e-15, "{found:?}");
+        let parabola = Cubic::quadratic(Point::new(-1.0, 1.0), &Point::new(0.0, -1.0), Point::new(1.0, 1.0));
+        let found = vertices(&parabola.power_basis());
+        assert!(found.iter().any(|t: &f64| (t - 0.5).abs() < 1e-12), "the vertex of the parabola: {found:?}");
+        let cusp = cubic([(0.0, 0.0), (1.0, 1.0), (0.0, 1.0), (1.0, 0.0)]);
+        let found = slowest(&cusp);
+        assert!(found.iter().any(|t| (t - 0.5).abs() < 1e-12), "the cusp: {found:?}");
+    }
+
+    #[test]
+    fn straight_and_pointlike_cubics_have_none() {
+        let line = Cubic::line(Point::new(0.1_f64, 0.7), Point::new(931.3, -12.9)).power_basis();
+        assert!(inflections(&line).is_empty() && vertices(&line).is_empty() && slowest(&line).is_empty());
+        let far = Cubic::line(Point::new(1000.1_f32, 0.7), Point::new(1001.3, 4.9)).power_basis();
+        assert!(inflections(&far).is_empty() && vertices(&far).is_empty());
+        let uneven = cubic([(0.0, 0.0), (1.0, 2.0), (1.5, 3.0), (4.0, 8.0)]);
+        assert!(inflections(&uneven).is_empty() && vertices(&uneven).is_empty());
+        let point = cubic([(3.0, 3.0); 4]);
+        assert!(inflections(&point).is_empty() && vertices(&point).is_empty() && slowest(&point).is_empty());
+    }
+
+    #[test]
+    fn agrees_with_sign_changes_of_the_curvature() {
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from(u32::try_from(seed >> 33).unwrap_or(0)) / f64::from(1_u32 << 31)
+        };
+        for _ in 0..100 {
+            let b = cubic(core::array::from_fn(|_| (random(), random())));
+            let bend = |t: f64| b.derivative(&t).cross(&b.second_derivative(&t));
+            assert_eq!(inflections(&b).len(), changes(bend), "{b:?}");
+            let third = Vector::new(6.0 * b.a[2].x, 6.0 * b.a[2].y);
+            let turn = |t: f64| {
+                let (d, dd) = (b.derivative(&t), b.second_derivative(&t));
+                d.cross(&third) * d.norm_sq() - 3.0 * d.cross(&dd) * d.dot(&dd)
+            };
+            let found = vertices(&b);
+            assert_eq!(found.len(), changes(turn), "{b:?}: {found:?}");
+            let slow = |t: f64| b.derivative(&t).dot(&b.second_derivative(&t));
+            assert_eq!(slowest(&b).len(), changes(slow), "{b:?}");
+            let scaled = PowerBasis {
+                origin: Point::new(b.origin.x * 1024.0, b.origin.y * 1024.0),
+                a: b.a.map(|v| v.scaled(&1024.0)),
+            };
+            assert_eq!(vertices(&scaled), found, "scaling by a power of two changes no bit");
+        }
     }
 }

@@ -123,6 +123,7 @@ impl Signs {
 
     /// The bits of N coefficients.
     #[inline]
+    #[allow(clippy::cast_possible_truncation, reason = "N ≤ 16")]
     pub(crate) const fn full<const N: usize>() -> u32 {
         u32::MAX >> (u32::BITS - N as u32)
     }

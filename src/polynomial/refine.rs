@@ -92,7 +92,7 @@ fn cluster<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<
     let Isolated { lower, upper, before, after, .. } = isolated;
     let centre = S::midpoint(lower, upper);
     let degree = p.degree().unwrap_or(0).max(1);
-    let mut k = if count == 0 { dominant(p, &centre, &(upper.clone() - lower)) } else { count };
+    let mut k = if count == 0 { dominant(p, &centre, &(upper.clone() - lower).mul_pow2(2)) } else { count };
     let parity_known = *before != 0 && *after != 0;
     if parity_known && (before != after) != (k % 2 == 1) {
         k = if k < degree { k + 1 } else { k.saturating_sub(1) };
@@ -118,7 +118,8 @@ fn cluster<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<
     Root { value: x, lower: lower.clone(), upper: upper.clone(), kind }
 }
 
-/// The order k ≥ 1 whose Taylor term is largest at this distance from the centre: near a k-fold root the k-th leads.
+/// The order k ≥ 1 whose Taylor term is largest at this distance from the centre: near a k-fold root the k-th leads, if
+/// the distance is at least k times that of the root from the centre.
 fn dominant<S: Scalar, const N: usize>(p: &Polynomial<S, N>, centre: &S, distance: &S) -> usize {
     let mut best = (1, S::zero());
     let mut power = S::one();

@@ -5,10 +5,10 @@
 //! roots beyond [`NEAR`] are reciprocals of those of the reversed polynomial in [1/hi, 1], where nothing can overflow and
 //! where leading coefficients that vanish or nearly vanish are roots at or near t = 0, that is, x = ∞.
 
+use super::Polynomial;
 use super::bernstein::Piece;
 use super::isolate::isolate;
 use super::refine::refine;
-use super::Polynomial;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 use core::array::from_fn;
@@ -211,17 +211,15 @@ fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S
         kind: r.kind,
     });
     // a root at 1, found from both sides, is one root
-    if near.last().is_some_and(|r| r.upper >= one) {
-        if let (Some(left), Some(right)) = (near.pop(), far.next()) {
-            if right.lower <= one {
-                push(&mut near, joined(left, right));
-            } else {
-                push(&mut near, left);
-                push(&mut near, right);
-            }
-        }
+    let mut first_far = far.next();
+    if let (Some(left), Some(right)) = (near.last_mut(), &first_far)
+        && left.upper >= one
+        && right.lower <= one
+    {
+        *left = joined(left, right);
+        first_far = None;
     }
-    for r in near.into_iter().chain(far) {
+    for r in near.into_iter().chain(first_far).chain(far) {
         if r.value.is_finite() {
             push(roots, r);
         }
@@ -229,17 +227,17 @@ fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S
 }
 
 /// Two findings that meet at the boundary between two searches.
-fn joined<S: Scalar>(left: Root<S>, right: Root<S>) -> Root<S> {
+fn joined<S: Scalar>(left: &Root<S>, right: &Root<S>) -> Root<S> {
     let kind = if right.kind.multiplicity() > left.kind.multiplicity() { right.kind } else { left.kind };
-    Root { value: S::midpoint(&left.value, &right.value), lower: left.lower, upper: right.upper, kind }
+    Root { value: S::midpoint(&left.value, &right.value), lower: left.lower.clone(), upper: right.upper.clone(), kind }
 }
 
 /// Appends; there are never more roots than coefficients, and if noise made it so, the last bracket grows.
 #[inline]
 fn push<S: Scalar, const N: usize>(roots: &mut Roots<S, N>, root: Root<S>) {
-    if let Err(full) = roots.try_push(root) {
-        if let Some(last) = roots.last_mut() {
-            last.upper = full.element().upper;
-        }
+    if let Err(full) = roots.try_push(root)
+        && let Some(last) = roots.last_mut()
+    {
+        last.upper = full.element().upper;
     }
 }

@@ -1,0 +1,207 @@
+//! Root finding against planted roots, in every class that breaks solvers: multiple and clustered roots, roots at the
+//! ends of the interval, degree drops, extreme scales, values that are not numbers.
+
+use feature_sampling::polynomial::{Polynomial, Root, RootKind, RootsError};
+use feature_sampling::scalar::{Field, Scalar};
+
+/// leading·∏(x − r), expanded in f64 from exact-ish factors.
+fn planted<const N: usize>(leading: f64, roots: &[f64]) -> Polynomial<f64, N> {
+    let mut c = [0.0; N];
+    c[0] = leading;
+    for (n, r) in roots.iter().enumerate() {
+        for j in (0..=n + 1).rev() {
+            let below = if j > 0 { c[j - 1] } else { 0.0 };
+            c[j] = below - r * c[j];
+        }
+    }
+    Polynomial::new(c)
+}
+
+/// Every planted root lies in a bracket (widened by `slack`), multiplicities add up, and brackets hold their values.
+fn check<const N: usize>(found: &[Root<f64>], truth: &[f64], slack: f64, what: &str) {
+    for r in found {
+        assert!(r.lower <= r.value && r.value <= r.upper, "{what}: value inside its bracket: {r:?}");
+        assert!(
+            truth.iter().any(|t| (r.lower - slack..=r.upper + slack).contains(t)),
+            "{what}: ghost {r:?}, truth {truth:?}"
+        );
+    }
+    for w in found.windows(2) {
+        assert!(w[0].upper <= w[1].lower, "{what}: brackets are disjoint: {found:?}");
+    }
+    for t in truth {
+        assert!(
+            found.iter().any(|r| (r.lower - slack..=r.upper + slack).contains(t)),
+            "{what}: {t} missed, found {found:?}"
+        );
+    }
+    let count: usize = found.iter().map(|r| usize::from(r.kind.multiplicity())).sum();
+    assert_eq!(count, truth.len(), "{what}: multiplicities of {found:?}, truth {truth:?}");
+}
+
+#[test]
+fn simple_roots_in_unit() {
+    let roots = [0.1, 0.35, 0.5, 0.75, 0.9];
+    for k in 0..=5 {
+        let mut truth = roots[..k].to_vec();
+        let inside = truth.clone();
+        truth.extend([1.5, -2.0, 3.0, 4.0, -0.5].iter().take(5 - k));
+        let p = planted::<6>(3.0, &truth);
+        let found = p.roots_in_unit().expect("finite");
+        check::<6>(&found, &inside, 1e-13, "planted");
+        for (r, t) in found.iter().zip(&inside) {
+            assert!((r.value - t).abs() < 1e-13, "{r:?} against {t}");
+            assert_eq!(r.kind, RootKind::Simple);
+            assert!(r.upper - r.lower < 1e-11, "a tight bracket {r:?}");
+        }
+    }
+}
+
+#[test]
+fn multiple_roots() {
+    for (m, kind) in [(2, RootKind::Even), (3, RootKind::Odd), (4, RootKind::Cluster(4)), (5, RootKind::Cluster(5))] {
+        for at in [1.0 / 3.0, 0.5, 0.25, 0.7, 0.123_456_789, 0.999, 0.001] {
+            let mut truth = vec![at; m];
+            truth.resize(5, -1.5);
+            let found = planted::<6>(1.0, &truth).roots_in_unit().expect("finite");
+            let inside = vec![at; m];
+            check::<6>(&found, &inside, 0.0, &format!("{m}-fold at {at}"));
+            assert_eq!(found.len(), 1, "{m}-fold at {at}: {found:?}");
+            assert_eq!(found[0].kind, kind, "{m}-fold at {at}: {found:?}");
+            assert!((found[0].value - at).abs() < 1e-12, "{m}-fold at {at}: mean of {found:?}");
+            let attainable = (1e-15_f64).powf(1.0 / m as f64);
+            assert!(found[0].upper - found[0].lower < 64.0 * attainable, "{m}-fold at {at}: width of {found:?}");
+        }
+    }
+}
+
+#[test]
+fn end_points() {
+    for truth in [
+        vec![0.0],
+        vec![1.0],
+        vec![0.0, 1.0],
+        vec![0.0, 0.5, 1.0],
+        vec![0.0, 0.0],
+        vec![1.0, 1.0],
+        vec![0.0; 5],
+        vec![1.0; 3],
+    ] {
+        let mut all = truth.clone();
+        all.resize(5, 2.5);
+        let found = planted::<6>(1.0, &all).roots_in_unit().expect("finite");
+        check::<6>(&found, &truth, 0.0, "ends");
+    }
+    let p = planted::<6>(2.0, &[-3.0, -1.0, 0.0, 1.0, 7.0]);
+    let found = p.roots_between(&-3.0, &7.0).expect("finite");
+    check::<6>(&found, &[-3.0, -1.0, 0.0, 1.0, 7.0], 0.0, "interval ends");
+    let found = p.roots_between(&-1.0, &1.0).expect("finite");
+    check::<6>(&found, &[-1.0, 0.0, 1.0], 0.0, "interval ends");
+    let found = p.roots_between(&-0.5, &0.5).expect("finite");
+    check::<6>(&found, &[0.0], 0.0, "inner interval");
+}
+
+#[test]
+fn degree_drops() {
+    let p = Polynomial::new([-1.0, 2.0, 0.0, 0.0, 0.0, 0.0]);
+    let found = p.roots_in_unit().expect("finite");
+    check::<6>(&found, &[0.5], 0.0, "linear in a quintic's clothes");
+    assert_eq!(p.real_roots().expect("finite").len(), 1);
+    let p = Polynomial::new([0.1875_f64, -1.0, 1.0, 0.0, 0.0, 1e-20]);
+    check::<6>(&p.roots_in_unit().expect("finite"), &[0.25, 0.75], 1e-15, "leading 1e-20");
+    let all = p.real_roots().expect("finite");
+    assert_eq!(all.len(), 3, "x⁵·1e-20 turns around once far out: {all:?}");
+    assert_eq!(Polynomial::new([5.0_f64, 0.0, 0.0]).real_roots().expect("finite").len(), 0);
+    assert_eq!(Polynomial::new([5.0_f64]).roots_in_unit().expect("finite").len(), 0);
+    assert_eq!(Polynomial::new([0.0_f64, 0.0, 3.0]).real_roots().expect("finite")[0].kind, RootKind::Even);
+}
+
+#[test]
+fn all_real_roots() {
+    for truth in [
+        vec![-5.0, -0.5, 0.25, 3.0, 100.0],
+        vec![1.0, 2.0, 3.0, 4.0, 5.0],
+        vec![-1.0, 1.0, 1e6, -1e6, 0.5],
+        vec![-20.0, -1.0, 0.0, 1.0, 17.0],
+    ] {
+        let mut sorted = truth.clone();
+        sorted.sort_by(f64::total_cmp);
+        let found = planted::<6>(1.0, &truth).real_roots().expect("finite");
+        assert_eq!(found.len(), 5, "{truth:?}: {found:?}");
+        for (r, t) in found.iter().zip(&sorted) {
+            assert!((r.value - t).abs() <= 1e-9 * t.abs().max(1e-3), "{r:?} against {t}");
+        }
+    }
+    // Wilkinson's, degree 7
+    let found = planted::<8>(1.0, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]).real_roots().expect("finite");
+    assert_eq!(found.len(), 7, "{found:?}");
+    // a double root at the boundary of two searches
+    let found = planted::<6>(1.0, &[1.0, 1.0, -1.0, -1.0, 4.0]).real_roots().expect("finite");
+    let kinds: Vec<u8> = found.iter().map(|r| r.kind.multiplicity()).collect();
+    assert_eq!(kinds, [2, 2, 1], "{found:?}");
+}
+
+#[test]
+fn extreme_scales() {
+    for e in [-1000_i32, -500, -300, -40, 40, 300, 500, 1000] {
+        let mut p = planted::<6>(1.0, &[0.2, 0.4, 0.6, 0.8, -1.0]);
+        for c in &mut p.coefficients {
+            *c = if e.abs() > 500 { c.mul_pow2(e / 2).mul_pow2(e / 2) } else { c.mul_pow2(e) };
+        }
+        check::<6>(&p.roots_in_unit().expect("finite"), &[0.2, 0.4, 0.6, 0.8], 1e-14, "scaled coefficients");
+        assert_eq!(p.real_roots().expect("finite").len(), 5, "2^{e}");
+    }
+    // roots near 0 keep their relative accuracy
+    let p = planted::<6>(1.0, &[1e-9, 2e-9, 3e-9, 0.5, 2.0]);
+    let found = p.roots_in_unit().expect("finite");
+    assert_eq!(found.len(), 4, "{found:?}");
+    for (r, t) in found.iter().zip([1e-9, 2e-9, 3e-9, 0.5]) {
+        assert!((r.value - t).abs() <= 1e-12 * t, "{r:?} against {t}");
+    }
+    for scale in [1e-150, 1e-50, 1e50, 1e150] {
+        let p = Polynomial::new([scale * scale * 2.0, -3.0 * scale, 1.0]);
+        let found = p.real_roots().expect("finite");
+        assert_eq!(found.len(), 2, "{scale}: {found:?}");
+        for (r, t) in found.iter().zip([scale, 2.0 * scale]) {
+            assert!((r.value - t).abs() <= 1e-14 * t, "{r:?} against {t}");
+        }
+    }
+}
+
+#[test]
+fn near_pairs() {
+    // resolved where the data can tell, together otherwise
+    let found = planted::<6>(1.0, &[0.3, 0.301, -2.0, -2.0, 5.0]).roots_in_unit().expect("finite");
+    assert_eq!(found.len(), 2, "{found:?}");
+    let found = planted::<6>(1.0, &[0.3, 0.3 + 1e-12, -2.0, -2.0, 5.0]).roots_in_unit().expect("finite");
+    check::<6>(&found, &[0.3, 0.3 + 1e-12], 0.0, "a pair 1e-12 apart");
+}
+
+#[test]
+fn typed_answers() {
+    let nan = Polynomial::new([1.0, f64::NAN]);
+    assert_eq!(nan.roots_in_unit(), Err(RootsError::NotFinite));
+    assert_eq!(nan.real_roots(), Err(RootsError::NotFinite));
+    let inf = Polynomial::new([1.0, f64::INFINITY, -f64::INFINITY]);
+    assert_eq!(inf.roots_in_unit(), Err(RootsError::NotFinite));
+    assert_eq!(Polynomial::new([0.0_f64; 6]).roots_in_unit(), Err(RootsError::ZeroPolynomial));
+    let p = Polynomial::new([1.0, -2.0]);
+    assert_eq!(p.roots_between(&1.0, &0.0), Err(RootsError::BadInterval));
+    assert_eq!(p.roots_between(&0.0, &f64::INFINITY), Err(RootsError::BadInterval));
+    let huge = Polynomial::new([f64::MAX, -f64::MAX, -f64::MAX, f64::MAX]);
+    check::<4>(&huge.real_roots().expect("finite"), &[-1.0, 1.0, 1.0], 0.0, "sums overflow");
+}
+
+#[test]
+fn single_precision() {
+    let p = Polynomial::new([-0.09375_f32, 0.84375, -2.25, 1.5]); // 1.5 (x − ¼)(x − ¼)(x − 1)
+    let found = p.roots_in_unit().expect("finite");
+    let total: u8 = found.iter().map(|r| r.kind.multiplicity()).sum();
+    assert_eq!(total, 3, "{found:?}");
+    assert!((found[0].value - 0.25).abs() < 1e-3 && (found[1].value - 1.0).abs() < 1e-6, "{found:?}");
+    for e in [-120, -60, 60, 100] {
+        let p = Polynomial::new([-0.25_f32, 1.0, -0.5, 2.0].map(|c| c.mul_pow2(e)));
+        assert_eq!(p.roots_in_unit().expect("finite").len(), 1, "2^{e}");
+    }
+    assert_eq!(<f32 as Scalar>::BITS, 24);
+}

@@ -8,7 +8,14 @@
 //! The order of [`Drawing::paths`] is the order of the document and is part of the interface: the index of a path
 //! is the `path` column of every output.
 
+use std::fmt;
+use std::path::Path;
+
 use feature_sampling::bezier::Cubic;
+
+use crate::csv_in::{self, CsvError};
+use crate::svg::{self, SvgError};
+use crate::text_in::{self, ReadError, one_line};
 
 /// A whole drawing: subpaths in document order, with their groups and layers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,7 +69,8 @@ pub struct DrawingPath {
     pub cubics: Vec<Cubic<f64>>,
     /// The stroke paint as written; `None` where there is no stroke.
     pub stroke: Option<String>,
-    /// The stroke width in root user units (scaled by the square root of the transform's determinant).
+    /// The stroke width in root user units (scaled by the square root of the transform's determinant); `None` where
+    /// there is no stroke.
     pub stroke_width: Option<f64>,
 }
 
@@ -73,4 +81,65 @@ pub struct Warning {
     pub element: String,
     /// What happened to it and why, in plain words.
     pub message: String,
+}
+
+/// A drawing that could not be loaded. `Display` gives one line: file, place, cause.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// The file or standard input could not be had as text.
+    Read {
+        /// Name of the file, or `-`.
+        source: String,
+        /// What went wrong.
+        error: ReadError,
+    },
+    /// It is an SVG drawing that cannot be read.
+    Svg(SvgError),
+    /// It is a CSV of control points that cannot be read.
+    Csv(CsvError),
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read { source, error } => write!(f, "{}: {error}", one_line(source)),
+            Self::Svg(error) => error.fmt(f),
+            Self::Csv(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for LoadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Read { error, .. } => Some(error),
+            Self::Svg(error) => error.source(),
+            Self::Csv(_) => None,
+        }
+    }
+}
+
+/// Loads a drawing from a file, or from standard input where the name is `-`.
+///
+/// The format follows the extension, `.svg` or `.csv`; where that does not tell, a text that starts with `<` is SVG.
+///
+/// # Errors
+/// [`LoadError`], whose text is one line with file, place and cause.
+pub fn load(path: impl AsRef<Path>) -> Result<Drawing, LoadError> {
+    let path = path.as_ref();
+    let source = path.display().to_string();
+    let text = if source == "-" { text_in::read(std::io::stdin().lock()) } else { text_in::read_file(path) };
+    let text = text.map_err(|error| LoadError::Read { source: source.clone(), error })?;
+    let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    let is_svg = match extension.as_deref() {
+        Some("svg") => true,
+        Some("csv") => false,
+        _ => text.trim_start().starts_with('<'),
+    };
+    if is_svg {
+        svg::read_str(&text, &source).map_err(LoadError::Svg)
+    } else {
+        csv_in::read_str(&text, &source).map_err(LoadError::Csv)
+    }
 }

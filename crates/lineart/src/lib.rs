@@ -1,7 +1,11 @@
 //! Applications on top of the kernel.
 
+pub mod csv_in;
 pub mod delaunay;
 pub mod drawing;
 pub mod export;
 pub mod flatten;
 pub mod stretch;
+pub mod svg;
+pub mod text_in;
+pub mod units;

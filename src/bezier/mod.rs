@@ -2,6 +2,8 @@
 //! point.
 
 pub mod critical;
+pub mod hull;
+pub mod nearest;
 mod cubic;
 pub(crate) mod newton;
 

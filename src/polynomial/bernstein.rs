@@ -78,6 +78,19 @@ pub(crate) fn on_unit<S: Scalar, const N: usize>(q: &[S; N]) -> [S; N] {
     b
 }
 
+/// Bernstein coefficients, times L, of p on [lo, hi].
+#[inline]
+pub(crate) fn on_interval<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: &S, hi: &S) -> [S; N] {
+    let mut q = p.taylor(lo).coefficients;
+    let width = hi.clone() - lo;
+    let mut power = S::one();
+    for c in &mut q {
+        *c = c.clone() * &power;
+        power = power * &width;
+    }
+    on_unit(&q)
+}
+
 /// The integer L by which the coefficients of [`on_unit`] are too large.
 #[inline]
 pub(crate) fn scale<S: Scalar, const N: usize>() -> S {
@@ -97,6 +110,19 @@ pub(crate) fn halve<S: Scalar, const N: usize>(b: [S; N]) -> ([S; N], [S; N]) {
         first
     });
     (left, right)
+}
+
+/// Where the control polygon over [lo, hi] crosses zero between coefficients i and i + 1, which have opposite signs: a
+/// first guess of a root.
+#[inline]
+pub(crate) fn polygon_zero<S: Scalar, const N: usize>(b: &[S; N], i: u32, lo: &S, hi: &S) -> S {
+    let width = hi.clone() - lo;
+    let (Some(left), Some(right)) = (b.get(i as usize), b.get(i as usize + 1)) else {
+        return width.half() + lo;
+    };
+    let fraction = left.clone() / &(left.clone() - right);
+    let intervals = S::int(i32::try_from(N).unwrap_or(2) - 1);
+    width * &((S::int(i.cast_signed()) + &fraction) / &intervals) + lo
 }
 
 /// Which coefficients are certainly positive, certainly negative: one bit each, lowest first.
@@ -172,15 +198,8 @@ impl<S: Scalar, const N: usize> Piece<S, N> {
 
     /// p on [lo, hi], 0 ≤ lo < hi.
     pub(crate) fn seated(p: &Polynomial<S, N>, lo: S, hi: S) -> Self {
-        let mut q = p.taylor(&lo).coefficients;
-        let width = hi.clone() - &lo;
-        let mut power = S::one();
-        for c in &mut q {
-            *c = c.clone() * &power;
-            power = power * &width;
-        }
         let noise = Self::noise_per_weight().twice() * &p.magnitude(&hi);
-        Self { b: on_unit(&q), lo, hi: hi.clone(), noise, reach: hi }
+        Self { b: on_interval(p, &lo, &hi), lo, hi: hi.clone(), noise, reach: hi }
     }
 
     /// 2N·u·L.

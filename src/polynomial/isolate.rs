@@ -14,7 +14,7 @@
 //! Work is bounded by a number of steps; what is left when they are spent is reported as clusters, never dropped.
 
 use super::Polynomial;
-use super::bernstein::{Piece, Signs};
+use super::bernstein::{self, Piece, Signs};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -140,7 +140,10 @@ pub(super) fn isolate<S: Scalar, const N: usize>(p: &Polynomial<S, N>, first: Pi
             Verdict::None(sign) => record.pass(sign, sign),
             Verdict::One(change) => {
                 let before = Signs::of(&piece.b, &piece.noise).at(0);
-                let start = crossing(&piece, change);
+                let start = match change {
+                    Some(i) => bernstein::polygon_zero(&piece.b, i, &piece.lo, &piece.hi),
+                    None => S::midpoint(&piece.lo, &piece.hi),
+                };
                 record.one(piece.lo, piece.hi, before, start);
             }
             Verdict::Halve => {
@@ -284,19 +287,4 @@ fn share<S: Scalar, const N: usize>(piece: &Piece<S, N>, decided: u32, k: u32) -
     }
     let share = share.twice();
     (share <= S::one().mul_pow2(-2)).then_some(share)
-}
-
-/// Where the control polygon of a piece with one variation crosses zero: a first guess of the root.
-#[inline]
-fn crossing<S: Scalar, const N: usize>(piece: &Piece<S, N>, change: Option<u32>) -> S {
-    let width = piece.hi.clone() - &piece.lo;
-    let at = change.and_then(|i| {
-        let (b, next) = (piece.b.get(i as usize)?, piece.b.get(i as usize + 1)?);
-        let fraction = b.clone() / &(b.clone() - next);
-        Some((S::int(i.cast_signed()) + &fraction) / &S::int(i32::try_from(N - 1).ok()?))
-    });
-    match at {
-        Some(s) => width * &s + &piece.lo,
-        None => width.half() + &piece.lo,
-    }
 }

@@ -26,6 +26,7 @@ pub(crate) mod bernstein;
 mod bound;
 mod eval;
 mod isolate;
+pub(crate) mod newton;
 mod refine;
 mod roots;
 mod scale;

@@ -1,14 +1,13 @@
 //! Refinement of isolated roots.
 //!
-//! A root with a change of sign is finished by Newton's method inside its bracket: each value narrows the bracket, a step
-//! that would leave it or does not halve the one before is replaced by a bisection, so every second step at least halves
-//! something and the method cannot run away. It stops when the step is below the resolution of the scalar, or when the
-//! next one would be: errors of consecutive Newton steps behave as e' ≈ C e², hence the next step is about d·(d/d₋)².
+//! A root with a change of sign is finished by Newton's method inside its bracket; the bracket returned is the remaining
+//! one, cut to the root's own uncertainty.
 //!
 //! A k-fold root is ill-conditioned, but the root of the (k−1)-st derivative inside its bracket is simple; it is the
 //! mean of the cluster up to second order, and it is what is returned as the value.
 
 use super::isolate::{Found, Isolated};
+use super::newton::{Zero, in_bracket};
 use super::{Polynomial, Root, RootKind};
 use crate::scalar::Scalar;
 
@@ -24,47 +23,7 @@ pub(super) fn refine<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: 
 /// The one root in [lower, upper], where p changes its sign; `rising`: from − to +.
 #[inline]
 fn crossing<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: S, upper: S, rising: bool, start: S) -> Root<S> {
-    let (mut lo, mut hi) = (lower, upper);
-    let mut x = if lo < start && start < hi { start } else { S::midpoint(&lo, &hi) };
-    let mut previous = hi.clone() - &lo;
-    let mut newton = false;
-    let mut slope = S::zero();
-    let resolution = S::unit_roundoff().twice();
-    for _ in 0..4 * S::BITS {
-        let (value, derivative) = p.eval_with_derivative(&x);
-        slope = derivative;
-        if value.is_zero() {
-            break;
-        }
-        if (value > S::zero()) == rising {
-            hi = x.clone();
-        } else {
-            lo = x.clone();
-        }
-        let step = value / &slope;
-        let next = x.clone() - &step;
-        let step = step.abs();
-        if lo <= next && next <= hi && step.clone().twice() <= previous {
-            let target = next.clone().abs() * &resolution;
-            let ratio = step.clone() / &previous;
-            let done = step <= target || (newton && ratio.square() * &step <= target);
-            x = next;
-            if done {
-                break;
-            }
-            previous = step;
-            newton = true;
-        } else {
-            let middle = S::midpoint(&lo, &hi);
-            if middle <= lo || middle >= hi {
-                x = middle;
-                break;
-            }
-            previous = hi.clone() - &lo;
-            newton = false;
-            x = middle;
-        }
-    }
+    let Zero { x, lo, hi, slope } = in_bracket(|x| p.eval_with_derivative(x), lower, upper, rising, start);
     let radius = spread(p, &x, &slope);
     Root {
         lower: lo.max(x.clone() - &radius).min(x.clone()),

@@ -13,7 +13,7 @@ const STEPS: usize = 80;
 impl<S: Scalar, const N: usize> Polynomial<S, N> {
     /// Σ|aⱼ|; infinite or NaN if a coefficient is.
     #[inline]
-    pub(super) fn weight(&self) -> S {
+    pub(crate) fn weight(&self) -> S {
         let mut sum = S::zero();
         for c in &self.coefficients {
             sum = sum + &c.clone().abs();

@@ -1,0 +1,254 @@
+//! The closest point of a cubic (paper, Section 7.1).
+//!
+//! F(t) = |B(t) − q|² has degree 6; its minimum over an interval is at an end or where the quintic
+//! g = F'/2 = (B − q)·B' changes from − to +. All critical points are the roots of g ([`critical_points`]), but for the
+//! closest one most need not be found. Branch and bound on the Bernstein form of g does with less:
+//!
+//! * no sign variation: F is monotone, the ends of the piece have it;
+//! * one variation from + to −: a maximum, the ends have it again;
+//! * one variation from − to +: one minimum, found by Newton's method in the bracket;
+//! * anywhere, F has the degree-6 Bernstein coefficients Fᵢ₊₁ = Fᵢ + h gᵢ/3 (gᵢ those of g, h the length of the piece),
+//!   whose least is a lower bound of F on the piece: if it is not below the best value so far, the piece is done.
+//!
+//! Splitting points are evaluated and are candidates themselves, so the bound is good from the start. Near centres of
+//! curvature g has nearly multiple roots, where root finders lose or misplace solutions; here F is flat there, the bound
+//! closes after a few halvings, and every answer is the value of F at a point of the curve.
+//!
+//! **Accuracy.** The returned `distance_sq` is |B(t) − q|² for the returned t as evaluated. It exceeds the true minimum by
+//! at most a few roundings of itself plus the square of the rounding error of B(t), in relation to the size of B − q on
+//! the curve: pruning allows for the noise of the lower bound.
+//!
+//! Coordinates must be finite and so must the squares of their differences, times 50; the curve's door sees to it.
+
+use super::hull::hull_keeps_away;
+use super::{Cubic, PowerBasis};
+use crate::geometry::{Point, Vector};
+use crate::polynomial::Polynomial;
+use crate::polynomial::bernstein::{self, Signs};
+use crate::polynomial::newton::in_bracket;
+use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
+
+/// Pieces waiting. Depth first: one for each halving; what does not fit is left at the value of its ends.
+const PENDING: usize = 64;
+
+/// A closest point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest<S> {
+    /// Parameter on the cubic, in the interval asked for.
+    pub t: S,
+    /// B(t).
+    pub point: Point<S>,
+    /// |B(t) − q|², in squared user units.
+    pub distance_sq: S,
+}
+
+/// The quintic (B − q)·B', half the derivative of the squared distance, in powers of t.
+#[inline]
+pub fn distance_quintic<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> Polynomial<S, 6> {
+    let v = b.origin.minus(q);
+    let [a1, a2, a3] = &b.a;
+    let three = S::int(3);
+    Polynomial::new([
+        v.dot(a1),
+        v.dot(a2).twice() + &a1.norm_sq(),
+        (v.dot(a3) + &a1.dot(a2)) * &three,
+        a1.dot(a3).mul_pow2(2) + &a2.norm_sq().twice(),
+        a2.dot(a3) * &S::int(5),
+        a3.norm_sq() * &three,
+    ])
+}
+
+/// All parameters in [0, 1] where the distance from q is stationary, ascending: minima, maxima and flat points, up to the
+/// attainable error of [`Polynomial::roots_in_unit`]. None where every parameter is stationary (a cubic that is a point).
+pub fn critical_points<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> ArrayVec<S, 5> {
+    let roots = distance_quintic(b, q).roots_in_unit().unwrap_or_default();
+    roots.into_iter().take(5).map(|r| r.value).collect()
+}
+
+/// The closest point to q with parameter in [0, 1]; among equally close ones, any.
+#[inline]
+pub fn nearest<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> Nearest<S> {
+    let view = View::new(b, q);
+    let g = bernstein::on_unit(&view.quintic.coefficients);
+    view.search(g, S::zero(), S::one())
+}
+
+/// The closest point to q with parameter in [t0, t1] ⊂ [0, 1]; where t0 ≥ t1, the point at t0.
+pub fn nearest_between<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>, t0: &S, t1: &S) -> Nearest<S> {
+    let view = View::new(b, q);
+    if t0 < t1 {
+        let g = bernstein::on_interval(&view.quintic, t0, t1);
+        view.search(g, t0.clone(), t1.clone())
+    } else {
+        view.answer(t0.clone(), view.distance_sq(t0))
+    }
+}
+
+/// The closest point to q on any of the cubics that is closer than `bound_sq` (squared; pass infinity for no bound), with
+/// the index of its cubic; `None` if there is none. The first of equally close ones wins.
+///
+/// Cubics whose hull is known to keep away from the best so far are not solved.
+pub fn nearest_of<'c, S: Scalar + 'c>(
+    cubics: impl IntoIterator<Item = &'c Cubic<S>>,
+    q: &Point<S>,
+    bound_sq: S,
+) -> Option<(usize, Nearest<S>)> {
+    let mut best = None;
+    let mut bound = bound_sq;
+    for (i, cubic) in cubics.into_iter().enumerate() {
+        if hull_keeps_away(cubic, q, &bound) {
+            continue;
+        }
+        let found = nearest(&cubic.power_basis(), q);
+        if found.distance_sq < bound {
+            bound = found.distance_sq.clone();
+            best = Some((i, found));
+        }
+    }
+    best
+}
+
+/// A cubic seen from a query point.
+struct View<'b, S> {
+    basis: &'b PowerBasis<S>,
+    /// B(0) − q.
+    offset: Vector<S>,
+    quintic: Polynomial<S, 6>,
+    /// Bound of the error of the lower bound of F, per unit of length of the parameter interval.
+    noise: S,
+}
+
+/// A stretch that may hold a minimum below the best value so far.
+struct Stretch<S> {
+    /// Bernstein coefficients of g, times 10.
+    g: [S; 6],
+    lo: S,
+    hi: S,
+    /// F(lo).
+    start: S,
+    /// Lower bound of F.
+    floor: S,
+}
+
+impl<'b, S: Scalar> View<'b, S> {
+    #[inline]
+    fn new(basis: &'b PowerBasis<S>, q: &Point<S>) -> Self {
+        let quintic = distance_quintic(basis, q);
+        let noise = quintic.weight() * &S::unit_roundoff().mul_pow2(5);
+        Self { basis, offset: basis.origin.minus(q), quintic, noise }
+    }
+
+    /// F(t).
+    #[inline]
+    fn distance_sq(&self, t: &S) -> S {
+        let [a1, a2, a3] = &self.basis.a;
+        let v = a1.plus_scaled(t, &a2.plus_scaled(t, a3));
+        self.offset.plus_scaled(t, &v).norm_sq()
+    }
+
+    /// g(t) and g'(t) from the curve itself: their errors are those of B(t) − q and B'(t), much smaller than those of the
+    /// quintic's coefficients where the curve is slow or q is near.
+    #[inline]
+    fn slope(&self, t: &S) -> (S, S) {
+        let [a1, a2, a3] = &self.basis.a;
+        let three_a3 = a3.scaled(&S::int(3));
+        let away = self.offset.plus_scaled(t, &a1.plus_scaled(t, &a2.plus_scaled(t, a3)));
+        let bend = a2.plus_scaled(t, &three_a3);
+        let velocity = a1.plus_scaled(t, &a2.plus(&bend));
+        (away.dot(&velocity), velocity.norm_sq() + &away.dot(&bend).twice())
+    }
+
+    #[inline]
+    fn answer(&self, t: S, distance_sq: S) -> Nearest<S> {
+        Nearest { point: self.basis.eval(&t), t, distance_sq }
+    }
+
+    /// Branch and bound on [lo, hi], with the Bernstein coefficients of g there.
+    #[inline]
+    fn search(&self, g: [S; 6], lo: S, hi: S) -> Nearest<S> {
+        let (start, end) = (self.distance_sq(&lo), self.distance_sq(&hi));
+        let mut best = if end < start { (hi.clone(), end) } else { (lo.clone(), start.clone()) };
+        let mut pending: ArrayVec<Stretch<S>, PENDING> = ArrayVec::new();
+        let mut current = self.look(Stretch { g, lo, hi, start, floor: S::zero() }, &mut best);
+        for _ in 0..16 * S::BITS {
+            let Some(stretch) = current.take().or_else(|| pending.pop()) else { break };
+            if stretch.floor >= worthwhile(&best.1) {
+                continue;
+            }
+            let mid = S::midpoint(&stretch.lo, &stretch.hi);
+            if !(stretch.lo < mid && mid < stretch.hi) {
+                continue;
+            }
+            let value = self.distance_sq(&mid);
+            if value < best.1 {
+                best = (mid.clone(), value.clone());
+            }
+            let Stretch { g, lo, hi, start, floor } = stretch;
+            let (left, right) = bernstein::halve(g);
+            let left = Stretch { g: left, lo, hi: mid.clone(), start, floor: floor.clone() };
+            let right = Stretch { g: right, lo: mid, hi, start: value, floor };
+            let left = self.look(left, &mut best);
+            let right = self.look(right, &mut best);
+            current = match (left, right) {
+                (Some(l), Some(r)) => {
+                    let (sooner, later) = if r.floor < l.floor { (r, l) } else { (l, r) };
+                    if pending.is_full() {
+                        pending.retain(|waiting| waiting.floor < worthwhile(&best.1));
+                    }
+                    if !pending.is_full() {
+                        pending.push(later);
+                    }
+                    Some(sooner)
+                }
+                (one, other) => one.or(other),
+            };
+        }
+        self.answer(best.0, best.1)
+    }
+
+    /// Settles a stretch if it is monotone, cannot beat the best, or holds just one extremum; otherwise returns it, to be
+    /// halved. `best` is (t, F(t)).
+    #[inline]
+    fn look(&self, mut stretch: Stretch<S>, best: &mut (S, S)) -> Option<Stretch<S>> {
+        let signs = Signs::of(&stretch.g, &S::zero());
+        if signs.positive == 0 || signs.negative == 0 {
+            return None;
+        }
+        let changes = signs.changes();
+        let one_extremum = signs.decided() == Signs::full::<6>() && changes.is_power_of_two();
+        if one_extremum && signs.at(0) > 0 {
+            return None;
+        }
+        let width = stretch.hi.clone() - &stretch.lo;
+        let (mut sum, mut least) = (S::zero(), S::zero());
+        for g in &stretch.g {
+            sum = sum + g;
+            if sum < least {
+                least = sum.clone();
+            }
+        }
+        // F₀ + h Σ gᵢ/3; the coefficients are ten times too large
+        stretch.floor = (least / &S::int(30) - &self.noise) * &width + &stretch.start;
+        if stretch.floor >= worthwhile(&best.1) {
+            return None;
+        }
+        if !one_extremum {
+            return Some(stretch);
+        }
+        let start = bernstein::polygon_zero(&stretch.g, changes.trailing_zeros(), &stretch.lo, &stretch.hi);
+        let zero = in_bracket(|t| self.slope(t), stretch.lo, stretch.hi, true, start);
+        let value = self.distance_sq(&zero.x);
+        if value < best.1 {
+            *best = (zero.x, value);
+        }
+        None
+    }
+}
+
+/// Below this a value is an improvement of more than a few roundings.
+#[inline]
+fn worthwhile<S: Scalar>(best: &S) -> S {
+    let gain = S::one() - &S::unit_roundoff().mul_pow2(2);
+    gain * best
+}

@@ -75,6 +75,11 @@ pub(super) fn arc_to(
         turn -= TAU;
     }
 
+    if !turn.is_finite() {
+        // Radii and chord too far apart for f64. The pen reports what is not finite, so hand it that.
+        piece(to, to, (f64::NAN, f64::NAN));
+        return true;
+    }
     let quarters = (turn.abs() / FRAC_PI_2 - SLACK).ceil().clamp(1.0, 4.0);
     let step = turn / quarters;
     let handle = 4.0 / 3.0 * (step / 4.0).tan();
@@ -178,6 +183,14 @@ mod tests {
         assert!(arc_to((-3.0, 0.0), (3.0, 0.0), &shape, |_, _, r| ends.push(r)));
         assert_eq!(ends.len(), 2);
         assert!((ends[0].0).abs() < 1e-12 && (ends[0].1 + 3.0).abs() < 1e-12, "{ends:?}");
+    }
+
+    #[test]
+    fn what_f64_cannot_hold_is_handed_out_as_such() {
+        let shape = ArcShape { rx: 1e300, ry: 1e-300, rotation: 45.0, large: false, sweep: true };
+        let mut ends = Vec::new();
+        assert!(arc_to((0.0, 0.0), (5.0, 1e200), &shape, |_, _, r| ends.push(r)));
+        assert!(ends.iter().any(|e| e.0.is_nan()), "{ends:?}");
     }
 
     #[test]

@@ -56,7 +56,7 @@ pub const MAX_COORDINATE: f64 = 1e100;
 pub const MAX_DEPTH: usize = 1024;
 
 /// How many elements are visited at most, instances counted each time.
-pub const MAX_ELEMENTS: usize = 2_000_000;
+pub const MAX_ELEMENTS: usize = 1_000_000;
 
 /// How many cubics a drawing may have.
 pub const MAX_CUBICS: usize = 4_000_000;

@@ -55,7 +55,14 @@ impl Affine {
     /// The plane collapses to a line or a point. The bound is relative: the determinant is a difference of two
     /// products, each rounded, so that below a few units in the last place its value is noise.
     pub(super) fn is_singular(&self) -> bool {
-        let (p, q) = (self.a * self.d, self.b * self.c);
+        // Scaled, so that the products neither overflow nor vanish. Entries that are not finite are no collapse:
+        // they come to light as coordinates out of range.
+        let largest = [self.a, self.b, self.c, self.d].into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if largest == 0.0 || !largest.is_finite() {
+            return largest == 0.0;
+        }
+        let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| v / largest);
+        let (p, q) = (a * d, b * c);
         (p - q).abs() <= 4.0 * f64::EPSILON * (p.abs() + q.abs())
     }
 
@@ -162,6 +169,9 @@ mod tests {
         assert!(Affine::parse("scale(0)").unwrap().is_singular());
         assert!(Affine::parse("rotate(30) scale(1 0) rotate(10)").unwrap().is_singular());
         assert!(!Affine::parse("scale(1e-12 1e12)").unwrap().is_singular());
+        assert!(!Affine::parse("scale(1e-200)").unwrap().is_singular());
+        assert!(!Affine::parse("scale(1e300)").unwrap().is_singular());
+        assert!(!Affine::parse("scale(1e300) scale(1e300)").unwrap().is_singular());
         assert!(!Affine::parse("rotate(45)").unwrap().is_singular());
     }
 }

@@ -12,6 +12,9 @@ use super::fault::Fault;
 use super::transform::Affine;
 use crate::units::Unit;
 
+/// 96 px are an inch of 25.4 mm.
+const PX_PER_MM: f64 = 96.0 / 25.4;
+
 /// Size of the nearest viewport in the user units inside it, as far as the document tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Viewport {
@@ -63,7 +66,7 @@ fn parse(text: &str) -> Result<svgtypes::Length, Fault> {
 fn px(unit: LengthUnit) -> Option<f64> {
     match unit {
         LengthUnit::None | LengthUnit::Px => Some(1.0),
-        _ => Some(mm(unit)? / (25.4 / 96.0)),
+        _ => Some(mm(unit)? * PX_PER_MM),
     }
 }
 
@@ -133,7 +136,7 @@ impl RootSize {
             return Ok(Self {
                 view_box,
                 viewport: Viewport { width: width.and_then(in_px), height: height.and_then(in_px) },
-                user_units_per_mm: Unit::Px.in_mm().map(f64::recip),
+                user_units_per_mm: Some(PX_PER_MM),
                 warning,
             });
         };

@@ -175,6 +175,10 @@ fn nesting_and_multiplication_are_bounded() {
     bomb.push_str("</defs><use href='#l10'/>");
     let error = refused_text(&document(&bomb));
     assert!(matches!(error.kind(), SvgErrorKind::Limit(..)), "{error}");
+    // One path with more lines than a drawing may have.
+    let long = format!("<path d='M0 0{}'/>", "h1".repeat(svg::MAX_CUBICS + 1));
+    let error = refused_text(&document(&long));
+    assert!(error.to_string().contains("path at 2:1: more than 4000000 cubics"), "{error}");
     // The same with entities.
     let mut laughs = String::from("<!DOCTYPE svg [<!ENTITY e0 '<path/>'>");
     for level in 1..=12 {

@@ -256,7 +256,8 @@ fn a_switch_shows_its_first_child_that_passes() {
     let drawing = read(
         r#"<switch><foreignObject requiredExtensions="http://example.org/x"/><path id="de" systemLanguage="de" d="M0 0H1"/>
            <path id="en" systemLanguage="fr, en-GB" d="M0 0H1"/><path id="any" d="M0 0H1"/></switch>
-           <switch><path id="de2" systemLanguage="de" d="M0 0H1"/><path id="any2" d="M0 0H1"/></switch>"#,
+           <switch><path id="de2" systemLanguage="de" d="M0 0H1"/><path id="any2" d="M0 0H1"/></switch>
+           <path id="outside" systemLanguage="de" d="M0 0H1"/>"#,
     );
     assert_eq!(ids(&drawing), ["en", "any2"]);
     assert!(drawing.warnings.is_empty(), "{:?}", drawing.warnings);

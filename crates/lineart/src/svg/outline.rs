@@ -22,6 +22,15 @@ pub(super) struct Subpath {
     pub(super) cubics: Vec<Cubic<f64>>,
 }
 
+/// Why the drawn outline cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PenError {
+    /// A coordinate is not finite or too large; holds the number of the drawing command, from 1.
+    OutOfRange(usize),
+    /// More than [`super::MAX_CUBICS`] cubics. Those beyond were not kept, so that a file cannot fill the memory.
+    TooMany,
+}
+
 /// The pen.
 #[derive(Debug)]
 pub(super) struct Outline<'a> {
@@ -34,8 +43,10 @@ pub(super) struct Outline<'a> {
     done: Vec<Subpath>,
     /// Drawing commands so far.
     segments: usize,
-    /// The first drawing command with a coordinate out of range.
-    out_of_range: Option<usize>,
+    /// How many cubics were kept.
+    kept: usize,
+    /// The first thing that went wrong.
+    error: Option<PenError>,
 }
 
 impl<'a> Outline<'a> {
@@ -47,7 +58,8 @@ impl<'a> Outline<'a> {
             cubics: Vec::new(),
             done: Vec::new(),
             segments: 0,
-            out_of_range: None,
+            kept: 0,
+            error: None,
         }
     }
 
@@ -101,12 +113,12 @@ impl<'a> Outline<'a> {
         self.end_subpath(true);
     }
 
-    /// The subpaths, or the number from 1 of the drawing command that went out of range.
-    pub(super) fn finish(mut self) -> Result<Vec<Subpath>, usize> {
+    /// The subpaths, or the first thing that went wrong.
+    pub(super) fn finish(mut self) -> Result<Vec<Subpath>, PenError> {
         self.end_subpath(false);
-        match self.out_of_range {
+        match self.error {
             None => Ok(self.done),
-            Some(segment) => Err(segment),
+            Some(error) => Err(error),
         }
     }
 
@@ -118,10 +130,15 @@ impl<'a> Outline<'a> {
     fn push(&mut self, cubic: Cubic<f64>, to: (f64, f64)) {
         self.segments += 1;
         let fits = |v: f64| v.abs() <= super::MAX_COORDINATE; // False for NaN.
-        if self.out_of_range.is_none() && !cubic.points.iter().all(|p| fits(p.x) && fits(p.y)) {
-            self.out_of_range = Some(self.segments);
+        if !cubic.points.iter().all(|p| fits(p.x) && fits(p.y)) {
+            self.error = self.error.or(Some(PenError::OutOfRange(self.segments)));
         }
-        self.cubics.push(cubic);
+        if self.kept < super::MAX_CUBICS {
+            self.kept += 1;
+            self.cubics.push(cubic);
+        } else {
+            self.error = self.error.or(Some(PenError::TooMany));
+        }
         self.here = to;
     }
 

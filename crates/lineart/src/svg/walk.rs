@@ -14,7 +14,7 @@ use roxmltree::{Document, Node, NodeId};
 use super::css::{self, StyleSheet};
 use super::error::{ElementName, SvgErrorKind};
 use super::fault::Fault;
-use super::outline::Outline;
+use super::outline::{Outline, PenError};
 use super::style::{Declared, Inherited};
 use super::transform::Affine;
 use super::viewport::{self, Axis, RootSize, Viewport};
@@ -225,7 +225,7 @@ impl<'a> Reader<'a, '_> {
             return Ok(());
         }
         let declared = Declared::of(element, &self.sheet);
-        if declared.is_left_out() {
+        if declared.is_left_out() || !passes(element) {
             return Ok(());
         }
         let viewport = context.viewport;
@@ -238,7 +238,8 @@ impl<'a> Reader<'a, '_> {
             }
             return Ok(());
         }
-        if element != self.root || context.instance_of.is_some() {
+        // The root is never an instance: it is around every `use`, so that would be a cycle.
+        if element != self.root {
             let own = self.own_transform(element, &declared)?;
             if own.is_singular() {
                 self.warn(element, "its transform flattens everything to a line or point; left out");
@@ -279,7 +280,7 @@ impl<'a> Reader<'a, '_> {
     fn container(&mut self, element: Node<'a, 'a>, tag: &str, mut context: Context<'a>) -> Result<(), SvgErrorKind> {
         let instance_of = context.instance_of.take();
         context.depth += 1;
-        let is_root = element == self.root && instance_of.is_none();
+        let is_root = element == self.root;
         if !is_root {
             self.drawing.groups.push(Group {
                 parent: context.group,
@@ -390,15 +391,20 @@ impl<'a> Reader<'a, '_> {
         }
         let mut pen = Outline::new(&context.to_root);
         draw(element, tag, context.viewport, &mut pen)?;
-        let subpaths =
-            pen.finish().map_err(|segment| SvgErrorKind::OutOfRange { element: element_name(element), segment })?;
+        let too_many = || {
+            let limit = format!("more than {MAX_CUBICS} cubics, counting each use");
+            SvgErrorKind::Limit(element_name(element), limit)
+        };
+        let subpaths = pen.finish().map_err(|error| match error {
+            PenError::OutOfRange(segment) => SvgErrorKind::OutOfRange { element: element_name(element), segment },
+            PenError::TooMany => too_many(),
+        })?;
         let stroke = &context.style.stroke;
         let width = context.style.stroke_width * context.to_root.mean_scale();
         for (index, subpath) in subpaths.into_iter().enumerate() {
             self.cubics += subpath.cubics.len();
             if self.cubics > MAX_CUBICS {
-                let limit = format!("more than {MAX_CUBICS} cubics, counting each use");
-                return Err(SvgErrorKind::Limit(element_name(element), limit));
+                return Err(too_many());
             }
             self.drawing.paths.push(DrawingPath {
                 id: element.attribute("id").map(str::to_owned),
@@ -431,8 +437,8 @@ fn origin_point(text: &str) -> Option<(f64, f64)> {
     parts.next().is_none().then_some(point)
 }
 
-/// Whether a child of `switch` may be chosen: no extensions asked for, and a language that this program, whose
-/// messages are English, can claim to speak.
+/// Whether an element's conditions hold (a `switch` shows its first child of which this is true): no extensions
+/// asked for, and a language that this program, whose messages are English, can claim to speak.
 fn passes(child: Node<'_, '_>) -> bool {
     let speaks = |list: &str| {
         list.split(',')

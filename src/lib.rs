@@ -14,4 +14,5 @@ pub mod medial;
 #[cfg(feature = "alloc")]
 pub mod model;
 pub mod polynomial;
+pub mod predicate;
 pub mod scalar;

@@ -4,6 +4,8 @@
 //! user units of the drawing, y downwards as in SVG; "left" is the direction (−y, x) of a tangent (x, y) throughout.
 
 mod aabb;
+#[cfg(any(feature = "glam", feature = "kurbo"))]
+mod convert;
 pub mod hierarchy;
 mod point;
 mod segment;

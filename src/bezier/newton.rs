@@ -7,8 +7,8 @@ use crate::scalar::Scalar;
 /// `f` returns value and derivative. Each step halves the bracket unless Newton's step stays well inside it; the loop ends
 /// when the step is below `width`, or after 2·BITS + 16 steps at the latest. The caller has seen f(lo) > 0 > f(hi).
 #[inline]
-pub(crate) fn falling_zero<S: Scalar>(mut lo: S, mut hi: S, start: S, width: &S, f: impl Fn(&S) -> (S, S)) -> S {
-    let mut x = start;
+pub(crate) fn falling_zero<S: Scalar>(mut lo: S, mut hi: S, width: &S, f: impl Fn(&S) -> (S, S)) -> S {
+    let mut x = S::midpoint(&lo, &hi);
     for _ in 0..2 * S::BITS + 16 {
         let (value, slope) = f(&x);
         if value > S::zero() {
@@ -36,7 +36,7 @@ mod tests {
     #[test]
     fn finds_the_zero_of_a_cubic() {
         let f = |x: &f64| (0.3 - x * x * x, -3.0 * x * x);
-        let x = falling_zero(0.0, 1.0, 0.5, &1e-14, f);
+        let x = falling_zero(0.0, 1.0, &1e-14, f);
         assert!((x - 0.3_f64.cbrt()).abs() < 1e-14, "{x}");
     }
 }

@@ -11,7 +11,7 @@
 //! the coordinates, only where a plain difference was the best form at hand.
 
 use super::foot::Foot;
-use super::pencil::Pencil;
+use super::pencil::{Pencil, Values};
 use crate::bezier::newton::falling_zero;
 use crate::curve::{Arc, Curve, CurveParam};
 use crate::geometry::{Aabb, Point};
@@ -66,6 +66,14 @@ pub fn tangent_disk<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, hint: Optio
     TangentDisk { radius: search.radius, touch: search.touch }
 }
 
+/// What is looked at: an arc through a pencil, to a precision in its parameter.
+struct Span<'p, S> {
+    pencil: &'p Pencil<S>,
+    arc: &'p Arc<S>,
+    index: u32,
+    width: S,
+}
+
 impl<S: Scalar> Search<'_, S> {
     /// The box may hold a point inside the current disk.
     #[inline]
@@ -95,26 +103,105 @@ impl<S: Scalar> Search<'_, S> {
             self.pencil = Some((arc.segment, second_half, pencil));
         }
         let Some((_, _, pencil)) = self.pencil.take() else { return };
-        self.search_arc(&pencil, arc, index, &middle);
+        self.search_arc(&pencil, arc, index);
         self.pencil = Some((arc.segment, second_half, pencil));
     }
 
-    fn search_arc(&mut self, pencil: &Pencil<S>, arc: &Arc<S>, index: u32, middle: &S) {
+    fn search_arc(&mut self, pencil: &Pencil<S>, arc: &Arc<S>, index: u32) {
         let [from, to] = &arc.span;
         let (v0, v1) = (from.clone() - &pencil.shift, to.clone() - &pencil.shift);
         let (e0, e1) = (pencil.at(&v0), pencil.at(&v1));
         self.offer(&e0.a, &e0.b, arc, index, from);
         self.offer(&e1.a, &e1.b, arc, index, to);
-        // Where B vanishes (the foot itself at a fan or corner) the quotient comes from −∞: it rises away from there.
-        let rises = e0.slope > S::zero() || e0.b.is_zero();
-        let falls = e1.slope < S::zero() || e1.b.is_zero();
-        if rises && falls {
-            let width = S::unit_roundoff().sqrt() * &(to.clone() - from).half().half();
-            let start = middle.clone() - &pencil.shift;
-            let v = falling_zero(v0, v1, start, &width, |v| pencil.slope(v));
+        let zero = S::zero();
+        let span = Span { width: S::unit_roundoff().mul_pow2(6), pencil, arc, index };
+        // Seen from a distance of its own length or more, an arc has one maximum inside, or none.
+        let far = e1.delta.minus(&e0.delta).norm_sq() < e0.b.clone().min(e1.b.clone());
+        if !far && e0.approach < zero && e1.approach > zero {
+            // The point nearest to f lies inside: near it the quotient can change on a scale that the ends do not show.
+            let v = falling_zero(v0.clone(), v1.clone(), &span.width, |v| pencil.recession(v));
             let e = pencil.at(&v);
-            self.offer(&e.a, &e.b, arc, index, &(v + &pencil.shift));
+            self.offer(&e.a, &e.b, arc, index, &(v.clone() + &pencil.shift));
+            let at_v = pencil.at(&v);
+            self.search_span(&span, (v0, e0), (v.clone(), e));
+            self.search_span(&span, (v, at_v), (v1, e1));
+        } else if let Some(u) = pencil.joint_offset(&v0, &v1) {
+            // The arc starts (or ends) at the joint that f is u away from. Where the curvature jumps there the quotient
+            // changes over parameters of the order of u, and its maximum lies near √u.
+            let sign = if v1 > -v0.clone() { S::one() } else { -S::one() };
+            let reach = v1.clone().max(-v0.clone());
+            let mut inner = (S::zero(), if sign > S::zero() { e0 } else { e1 });
+            let ends = [u.clone() * &S::int(8), u.sqrt().half(), reach];
+            for v in ends {
+                if v <= inner.0 || v > v1.clone().max(-v0.clone()) {
+                    continue;
+                }
+                let at = v.clone() * &sign;
+                let e = pencil.at(&at);
+                self.offer(&e.a, &e.b, arc, index, &(at.clone() + &pencil.shift));
+                let outer = pencil.at(&at);
+                let from = inner.0.clone() * &sign;
+                if sign > S::zero() {
+                    self.search_span(&span, (from, inner.1), (at, e));
+                } else {
+                    self.search_span(&span, (at, e), (from, inner.1));
+                }
+                inner = (v, outer);
+            }
+        } else {
+            self.search_span(&span, (v0, e0), (v1, e1));
         }
+    }
+
+    /// Offers the inner maximum of A/B between two parameters, if there is one.
+    fn search_span(&mut self, span: &Span<'_, S>, (mut v0, mut e0): (S, Values<S>), (mut v1, mut e1): (S, Values<S>)) {
+        let Span { pencil, width, .. } = span;
+        let zero = S::zero();
+        // Only the part with A > 0 counts. Where A changes sign its zero takes the place of the end: A' B has the slope's sign.
+        let rise = |v: &S| {
+            let (a, slope) = pencil.a_and_slope(v);
+            (-a, -slope)
+        };
+        if e0.a > zero && e1.a < zero {
+            v1 = falling_zero(v0.clone(), v1, width, |v| pencil.a_and_slope(v));
+            e1 = pencil.at(&v1);
+        } else if e0.a < zero && e1.a > zero {
+            v0 = falling_zero(v0, v1.clone(), width, rise);
+            e0 = pencil.at(&v0);
+        } else if e0.a <= zero && e1.a <= zero {
+            // The arc can still rise above the tangent line between its ends.
+            let Some(top) = pencil.crest(&v0, &v1, width) else { return };
+            v0 = falling_zero(v0, top.clone(), width, rise);
+            v1 = falling_zero(top, v1, width, |v| pencil.a_and_slope(v));
+            (e0, e1) = (pencil.at(&v0), pencil.at(&v1));
+        }
+        // Where B vanishes (the foot itself at a fan or corner) the quotient comes from −∞: it rises away from there.
+        let rises = e0.slope > zero || e0.b.is_zero();
+        let falls = e1.slope < zero || e1.b.is_zero();
+        if !rises && !falls {
+            return;
+        }
+        if rises != falls {
+            // Rising at both ends, or falling at both: a maximum and a minimum can hide between if the slope's own extremum
+            // has the other sign.
+            let (bend0, bend1) = (pencil.slope(&v0).1, pencil.slope(&v1).1);
+            let hidden = if rises { bend0 < zero && bend1 > zero } else { bend0 > zero && bend1 < zero };
+            if !hidden {
+                return;
+            }
+            let turn = pencil.extremal_slope(&v0, &v1, rises);
+            let slope = pencil.slope(&turn).0;
+            if rises && slope < zero {
+                v1 = turn;
+            } else if falls && slope > zero {
+                v0 = turn;
+            } else {
+                return;
+            }
+        }
+        let v = falling_zero(v0, v1, width, |v| pencil.slope(v));
+        let e = pencil.at(&v);
+        self.offer(&e.a, &e.b, span.arc, span.index, &(v + &pencil.shift));
     }
 
     #[inline]

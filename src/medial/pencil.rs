@@ -24,6 +24,7 @@
 //! "Formulation that worked", 5.
 
 use super::foot::{Foot, Side};
+use crate::bezier::newton::falling_zero;
 use crate::curve::{Curve, EndId, JointKind, Segment};
 use crate::geometry::Vector;
 use crate::scalar::Scalar;
@@ -37,6 +38,8 @@ pub(super) struct Pencil<S> {
     delta: [Vector<S>; 4],
     /// Parameter of the segment where v = 0.
     pub(super) shift: S,
+    /// For a foot beside a joint, seen across it: how far, in parameters of its own segment. 0 otherwise.
+    offset: S,
 }
 
 /// Values of a pencil at one parameter.
@@ -47,6 +50,10 @@ pub(super) struct Values<S> {
     pub(super) b: S,
     /// A'B − AB': has the sign of the derivative of A/B.
     pub(super) slope: S,
+    /// Δ.
+    pub(super) delta: Vector<S>,
+    /// B'/2: negative while Δ comes nearer to 0.
+    pub(super) approach: S,
 }
 
 impl<S: Scalar> Pencil<S> {
@@ -86,6 +93,7 @@ impl<S: Scalar> Pencil<S> {
             a: [d.dot(&origin) - curve.noise, d.dot(a1), d.dot(a2), d.dot(a3)],
             delta: [origin, a1.clone(), a2.clone(), a3.clone()],
             shift: S::zero(),
+            offset: S::zero(),
         }
     }
 
@@ -101,6 +109,7 @@ impl<S: Scalar> Pencil<S> {
             a: [e0, e1, S::zero(), S::zero()],
             delta: [d0, d1, a3.clone(), Vector::zero()],
             shift: S::zero(),
+            offset: S::zero(),
         }
     }
 
@@ -119,6 +128,7 @@ impl<S: Scalar> Pencil<S> {
                 a: [d.dot(&b2), d.dot(&b3), S::zero(), S::zero()],
                 delta: [b1, b2, b3, Vector::zero()],
                 shift,
+                offset: S::zero(),
             };
         }
         if on_joint {
@@ -126,6 +136,7 @@ impl<S: Scalar> Pencil<S> {
                 a: [S::zero(), d.dot(&b1), d.dot(&b2), d.dot(&b3)],
                 delta: [Vector::zero(), b1, b2, b3],
                 shift,
+                offset: S::zero(),
             };
         }
         let Some(own) = own else { return Self::plain(curve, foot, segment) };
@@ -141,7 +152,7 @@ impl<S: Scalar> Pencil<S> {
         let a0 = u.clone().square() * &e_f;
         let speed_q = b1.norm();
         if !smooth || !(foot.speed > S::zero() && speed_q > S::zero()) {
-            return Self { a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)], delta: [delta0, b1, b2, b3], shift };
+            return Self { a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)], delta: [delta0, b1, b2, b3], shift, offset: u.abs() };
         }
         // d·(q−e) with d written as the turned tangent at the joint plus what F's tangent turns on its way from there.
         // Everything is relative to |N(s)| = speed; sigma is the side that d is on.
@@ -152,12 +163,19 @@ impl<S: Scalar> Pencil<S> {
         let tangent_e = own.power.derivative(&e);
         let mu = tangent_e.norm() / &speed_q;
         let mu = if tangent_e.dot(&b1) < S::zero() { -mu } else { mu };
+        let offset = u.clone().abs();
         let uk = u * &k;
         let muk = mu * &k;
         let a1 = m.cross(&b1) * &uk;
         let a2 = m.cross(&b2) * &uk + &(b1.cross(&b2) * &muk);
         let a3 = m.cross(&b3) * &uk + &(b1.cross(&b3) * &muk);
-        Self { a: [a0, a1, a2, a3], delta: [delta0, b1, b2, b3], shift }
+        Self { a: [a0, a1, a2, a3], delta: [delta0, b1, b2, b3], shift, offset }
+    }
+
+    /// The foot's distance from the joint, if the interval [v0, v1] starts or ends there and f is near.
+    pub(super) fn joint_offset(&self, v0: &S, v1: &S) -> Option<S> {
+        let near = self.offset > S::zero() && self.offset < S::one().mul_pow2(-5);
+        (near && (v0.is_zero() || v1.is_zero())).then(|| self.offset.clone())
     }
 
     /// A, B and the slope's sign at v = t − shift.
@@ -166,9 +184,9 @@ impl<S: Scalar> Pencil<S> {
         let (a, a_slope) = self.a_and_slope(v);
         let (d, d_slope) = self.delta_and_slope(v);
         let b = d.norm_sq();
-        let b_slope = d.dot(&d_slope).twice();
-        let slope = a_slope * &b - &(a.clone() * &b_slope);
-        Values { a, b, slope }
+        let approach = d.dot(&d_slope);
+        let slope = a_slope * &b - &(a.clone() * &approach).twice();
+        Values { a, b, slope, delta: d, approach }
     }
 
     /// A'B − AB' and its derivative A''B − AB''.
@@ -188,8 +206,53 @@ impl<S: Scalar> Pencil<S> {
         (a_slope * &b - &(a.clone() * &b_slope), a_bend * &b - &(a * &b_bend))
     }
 
+    /// The parameter in [v0, v1] where A'B − AB' is smallest (or largest), by bisection on its derivative.
+    ///
+    /// Precise enough to see the sign there: it stops at 2^−20 of the interval.
+    pub(super) fn extremal_slope(&self, v0: &S, v1: &S, smallest: bool) -> S {
+        let (mut lo, mut hi) = (v0.clone(), v1.clone());
+        for _ in 0..20 {
+            let v = S::midpoint(&lo, &hi);
+            let (slope, bend) = self.slope(&v);
+            // Past the sign that is looked for, nothing smaller or larger is needed.
+            if (smallest && slope < S::zero()) || (!smallest && slope > S::zero()) {
+                return v;
+            }
+            if (bend < S::zero()) == smallest {
+                lo = v;
+            } else {
+                hi = v;
+            }
+        }
+        S::midpoint(&lo, &hi)
+    }
+
+    /// Where A is positive between v0 and v1, at both of which it is not; `None` if it is so nowhere that its slopes at the
+    /// ends would show.
+    pub(super) fn crest(&self, v0: &S, v1: &S, width: &S) -> Option<S> {
+        let (rise, fall) = (self.a_and_slope(v0).1, self.a_and_slope(v1).1);
+        if !(rise > S::zero() && fall < S::zero()) {
+            return None;
+        }
+        let [_, _, a2, a3] = &self.a;
+        let v = falling_zero(v0.clone(), v1.clone(), width, |v| {
+            (self.a_and_slope(v).1, (a3.clone() * v * &S::int(3) + a2).twice())
+        });
+        (self.a_and_slope(&v).0 > S::zero()).then_some(v)
+    }
+
+    /// −B'/2 and its derivative.
     #[inline]
-    fn a_and_slope(&self, v: &S) -> (S, S) {
+    pub(super) fn recession(&self, v: &S) -> (S, S) {
+        let (d, d_slope) = self.delta_and_slope(v);
+        let [_, _, d2, d3] = &self.delta;
+        let d_bend = d2.plus_scaled(&(v.clone() * &S::int(3)), d3);
+        (-d.dot(&d_slope), -(d_slope.norm_sq() + &d.dot(&d_bend).twice()))
+    }
+
+    /// A and A' at v.
+    #[inline]
+    pub(super) fn a_and_slope(&self, v: &S) -> (S, S) {
         let [a0, a1, a2, a3] = &self.a;
         let h2 = a3.clone() * v + a2;
         let h1 = h2.clone() * v + a1;

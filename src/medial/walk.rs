@@ -392,7 +392,12 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         if !(ra.is_finite() && rm.is_finite() && rb.is_finite()) {
             return true;
         }
-        let allowed = least.max(self.floor.clone() * &S::int(100)) * tolerance;
+        // Short of half a radius an edge cannot hide a wiggle that its middle does not show.
+        let floored = least.clone().max(self.floor.clone() * &S::int(100));
+        if a.centre.distance_sq(&b.centre) > floored.clone().half().square() {
+            return true;
+        }
+        let allowed = floored * tolerance;
         let allowed_sq = allowed.twice().square();
         if (!self.same_feature(a, m) || !self.same_feature(m, b)) && a.centre.distance_sq(&b.centre) > allowed_sq {
             return true;

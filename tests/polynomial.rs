@@ -205,3 +205,143 @@ fn single_precision() {
     }
     assert_eq!(<f32 as Scalar>::BITS, 24);
 }
+
+/// A product of (64x − k) with integers k has integer coefficients that doubles hold exactly, so the truth is exact.
+#[test]
+fn exact_products_with_multiplicities() {
+    let mut seed = 99_u64;
+    let mut random = |n: u64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        i32::try_from((seed >> 33) % n).expect("small")
+    };
+    let (mut worst, mut ambiguities) = (0.0_f64, 0);
+    for case in 0..60_000 {
+        let mut numerators = Vec::new();
+        while numerators.len() < 5 {
+            let k = match random(4) {
+                0 => random(65),
+                1 => random(3) * 32,
+                _ => random(400) - 200,
+            };
+            for _ in 0..=random(5).min(4 - i32::try_from(numerators.len()).expect("at most 5")) {
+                numerators.push(k);
+            }
+        }
+        numerators.sort_unstable();
+        let mut c = [0.0; 6];
+        c[0] = 1.0;
+        for (n, k) in numerators.iter().enumerate() {
+            for j in (0..=n + 1).rev() {
+                let below = if j > 0 { c[j - 1] } else { 0.0 };
+                c[j] = 64.0 * below - f64::from(*k) * c[j];
+            }
+        }
+        let p = Polynomial::new(c);
+        let exact = |inside: &dyn Fn(i32) -> bool| -> Vec<f64> {
+            numerators.iter().filter(|k| inside(**k)).map(|k| f64::from(*k) / 64.0).collect()
+        };
+        for (found, truth) in [
+            (p.roots_in_unit().expect("finite"), exact(&|k| (0..=64).contains(&k))),
+            (p.roots_between(&-1.5, &0.25).expect("finite"), exact(&|k| (-96..=16).contains(&k))),
+            (p.real_roots().expect("finite"), exact(&|_| true)),
+        ] {
+            // a cluster with other roots within twice its width may be counted with or without them
+            let ambiguous = found.iter().filter(|r| r.kind != RootKind::Simple).any(|r| {
+                let (middle, reach) = (f64::midpoint(r.lower, r.upper), 2.5 * (r.upper - r.lower));
+                let all = numerators.iter().map(|k| f64::from(*k) / 64.0);
+                let mut close: Vec<f64> = all.filter(|t| (t - middle).abs() <= reach).collect();
+                close.dedup();
+                close.len() > 1
+            });
+            ambiguities += usize::from(ambiguous);
+            if ambiguous {
+                for t in &truth {
+                    assert!(found.iter().any(|r| (r.lower - 1e-15..=r.upper + 1e-15).contains(t)), "{t} missed");
+                }
+                continue;
+            }
+            check::<6>(&found, &truth, 1e-15, &format!("case {case}, {numerators:?}"));
+            for r in &found {
+                if r.kind == RootKind::Simple {
+                    let t = truth.iter().map(|t| (t - r.value).abs()).fold(f64::INFINITY, f64::min);
+                    let (_, slope) = p.eval_with_derivative(&r.value);
+                    let attainable = p.magnitude(&r.value) / slope.abs() * f64::EPSILON;
+                    worst = worst.max(t / attainable);
+                }
+            }
+        }
+    }
+    assert!(ambiguities < 1000, "{ambiguities} ambiguous answers of 180000");
+    assert!(worst < 4.0, "a simple root is off by {worst} times its attainable error");
+}
+
+#[test]
+fn exact_products_in_single_precision() {
+    let mut seed = 5_u64;
+    let mut random = |n: u64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        i16::try_from((seed >> 33) % n).expect("small")
+    };
+    for case in 0..20_000 {
+        let mut k = [0_i16; 3].map(|_| random(33) - 12);
+        k.sort_unstable();
+        if k.windows(2).any(|w| w[1] - w[0] < 3) {
+            continue;
+        }
+        let mut c = [1.0_f32, 0.0, 0.0, 0.0];
+        for (n, k) in k.iter().enumerate() {
+            for j in (0..=n + 1).rev() {
+                let below = if j > 0 { c[j - 1] } else { 0.0 };
+                c[j] = 8.0 * below - f32::from(*k) * c[j];
+            }
+        }
+        let p = Polynomial::new(c);
+        for (found, inside) in
+            [(p.roots_in_unit().expect("finite"), 0..=8), (p.real_roots().expect("finite"), -12..=20)]
+        {
+            let truth: Vec<f32> = k.iter().filter(|k| inside.contains(*k)).map(|k| f32::from(*k) / 8.0).collect();
+            assert_eq!(found.len(), truth.len(), "case {case}: {k:?}, {found:?}");
+            for (r, t) in found.iter().zip(&truth) {
+                assert!((r.value - t).abs() <= 1e-4, "case {case}: {r:?} against {t}");
+                assert!(r.lower <= t + 1e-6 && *t <= r.upper + 1e-6, "case {case}: {r:?} holds {t}");
+            }
+        }
+    }
+}
+
+proptest::proptest! {
+    /// Any bits whatever: typed errors or ordered, finite brackets inside the interval; never a panic, never NaN.
+    #[test]
+    fn any_coefficients(bits in proptest::array::uniform6(proptest::num::u64::ANY), lo in -1e3..1e3, width in 1e-9..1e3) {
+        let p = Polynomial::new(bits.map(f64::from_bits));
+        let hi = lo + width;
+        let answers = [(p.roots_in_unit(), 0.0, 1.0), (p.roots_between(&lo, &hi), lo, hi), (p.real_roots(), f64::MIN, f64::MAX)];
+        for (answer, lo, hi) in answers {
+            match answer {
+                Ok(found) => {
+                    for r in &found {
+                        proptest::prop_assert!(lo <= r.lower && r.lower <= r.value && r.value <= r.upper && r.upper <= hi, "{r:?}");
+                    }
+                    proptest::prop_assert!(found.windows(2).all(|w| w[0].upper <= w[1].lower), "{found:?}");
+                }
+                Err(e) => proptest::prop_assert_eq!(e, RootsError::NotFinite),
+            }
+        }
+    }
+
+    /// Multiplying by −1 and by a power of two changes no bit; x → −x mirrors the answer.
+    #[test]
+    fn symmetries(c in proptest::array::uniform6(-1.0..1.0), e in -30..30) {
+        let p = Polynomial::new(c);
+        let found = p.roots_in_unit().expect("finite");
+        let scaled = Polynomial::new(c.map(|x: f64| (-x).mul_pow2(e)));
+        proptest::prop_assert_eq!(&scaled.roots_in_unit().expect("finite"), &found);
+        let all = p.real_roots().expect("finite");
+        let mirrored = p.mirrored().real_roots().expect("finite");
+        proptest::prop_assert_eq!(all.len(), mirrored.len());
+        for (a, b) in all.iter().zip(mirrored.iter().rev()) {
+            proptest::prop_assert_eq!(a.value, -b.value);
+        }
+        proptest::prop_assert_eq!(all.iter().map(|r| r.kind.multiplicity()).sum::<u8>() % 2, 1, "a quintic has an odd number");
+    }
+}

@@ -229,7 +229,7 @@ impl<'b, S: Scalar> View<'b, S> {
             }
         }
         // F₀ + h Σ gᵢ/3; the coefficients are ten times too large
-        stretch.floor = (least / &S::int(30) - &self.noise) * &width + &stretch.start;
+        stretch.floor = (least * &S::ratio(1, 30) - &self.noise) * &width + &stretch.start;
         if stretch.floor >= worthwhile(&best.1) {
             return None;
         }

@@ -121,8 +121,8 @@ pub(crate) fn polygon_zero<S: Scalar, const N: usize>(b: &[S; N], i: u32, lo: &S
         return width.half() + lo;
     };
     let fraction = left.clone() / &(left.clone() - right);
-    let intervals = S::int(i32::try_from(N).unwrap_or(2) - 1);
-    width * &((S::int(i.cast_signed()) + &fraction) / &intervals) + lo
+    let interval = S::ratio(1, i32::try_from(N).unwrap_or(2) - 1);
+    (S::int(i.cast_signed()) + &fraction) * &interval * &width + lo
 }
 
 /// Which coefficients are certainly positive, certainly negative: one bit each, lowest first.

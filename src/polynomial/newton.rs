@@ -1,9 +1,14 @@
 //! Newton's method held in a bracket.
 //!
 //! Each value narrows the bracket; a step that would leave it or does not halve the one before is replaced by a
-//! bisection, so every second step at least halves something and the method cannot run away. It stops when the step is
-//! below the resolution of the scalar, or when the next one would be: errors of consecutive Newton steps behave as
-//! e' ≈ C e², hence after a step d that followed a step d₋ the next is about d·(d/d₋)².
+//! bisection, so every second step at least halves something and the method cannot run away. It stops when the step d is
+//! below the resolution of the scalar, or when the next one would be: after a step d₋ it is C d² at most, with C below
+//! 1/d₋ where the method converges, hence below d²/d₋. (The sharper guess d·(d/d₋)², with C taken from the last two
+//! steps, stops too early where terms of C happen to cancel: found with a product of (64x − k) for k = −39, −39, 24, 91,
+//! 91, off by 1e-14.)
+//!
+//! Close to the zero the signs of values are those of rounding errors; the narrowed bracket is a guide, not a proof, and
+//! is not returned.
 
 use crate::scalar::Scalar;
 
@@ -11,10 +16,6 @@ use crate::scalar::Scalar;
 pub(crate) struct Zero<S> {
     /// The zero.
     pub(crate) x: S,
-    /// Lower end of the remaining bracket.
-    pub(crate) lo: S,
-    /// Upper end of the remaining bracket.
-    pub(crate) hi: S,
     /// The derivative at the last point it was evaluated, near x.
     pub(crate) slope: S,
 }
@@ -44,7 +45,7 @@ pub(crate) fn in_bracket<S: Scalar>(f: impl Fn(&S) -> (S, S), mut lo: S, mut hi:
         if lo <= next && next <= hi && step.clone().twice() <= previous {
             let target = next.clone().abs() * &resolution;
             let ratio = step.clone() / &previous;
-            let done = step <= target || (newton && ratio.square() * &step <= target);
+            let done = step <= target || (newton && ratio * &step <= target);
             x = next;
             if done {
                 break;
@@ -62,5 +63,5 @@ pub(crate) fn in_bracket<S: Scalar>(f: impl Fn(&S) -> (S, S), mut lo: S, mut hi:
             x = middle;
         }
     }
-    Zero { x, lo, hi, slope }
+    Zero { x, slope }
 }

@@ -1,7 +1,7 @@
 //! Refinement of isolated roots.
 //!
-//! A root with a change of sign is finished by Newton's method inside its bracket; the bracket returned is the remaining
-//! one, cut to the root's own uncertainty.
+//! A root with a change of sign is finished by Newton's method inside its bracket; the bracket returned is the
+//! isolating one cut to the root's own uncertainty.
 //!
 //! A k-fold root is ill-conditioned, but the root of the (k−1)-st derivative inside its bracket is simple; it is the
 //! mean of the cluster up to second order, and it is what is returned as the value.
@@ -10,6 +10,9 @@ use super::isolate::{Found, Isolated};
 use super::newton::{Zero, in_bracket};
 use super::{Polynomial, Root, RootKind};
 use crate::scalar::Scalar;
+
+/// Rounds of looking for the order and the middle of a cluster.
+const ROUNDS: usize = 4;
 
 /// The root or cluster in an isolated bracket.
 #[inline]
@@ -23,11 +26,11 @@ pub(super) fn refine<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: 
 /// The one root in [lower, upper], where p changes its sign; `rising`: from − to +.
 #[inline]
 fn crossing<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: S, upper: S, rising: bool, start: S) -> Root<S> {
-    let Zero { x, lo, hi, slope } = in_bracket(|x| p.eval_with_derivative(x), lower, upper, rising, start);
+    let Zero { x, slope } = in_bracket(|x| p.eval_with_derivative(x), lower.clone(), upper.clone(), rising, start);
     let radius = spread(p, &x, &slope);
     Root {
-        lower: lo.max(x.clone() - &radius).min(x.clone()),
-        upper: hi.min(x.clone() + &radius).max(x.clone()),
+        lower: lower.max(x.clone() - &radius),
+        upper: upper.min(x.clone() + &radius),
         value: x,
         kind: RootKind::Simple,
     }
@@ -51,13 +54,25 @@ fn cluster<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<
     let Isolated { lower, upper, before, after, .. } = isolated;
     let centre = S::midpoint(lower, upper);
     let degree = p.degree().unwrap_or(0).max(1);
-    let mut k = if count == 0 { dominant(p, &centre, &(upper.clone() - lower).mul_pow2(2)) } else { count };
+    let reach = (upper.clone() - lower) * &S::ratio(3, 4);
+    let (mut x, mut k) = (centre, count);
+    if count == 0 {
+        // too small a guess still leads to the middle of a multiple root, from where its order shows better
+        for _ in 0..ROUNDS {
+            let seen = dominant(p, &x, &reach);
+            if seen == k {
+                break;
+            }
+            k = seen;
+            x = mean(p, lower, upper, x, k);
+        }
+    }
     let parity_known = *before != 0 && *after != 0;
     if parity_known && (before != after) != (k % 2 == 1) {
         k = if k < degree { k + 1 } else { k.saturating_sub(1) };
     }
     let k = k.clamp(1, degree);
-    let x = mean(p, lower, upper, centre, k);
+    let x = mean(p, lower, upper, x, k);
     if k == 1 && parity_known {
         return crossing(p, lower.clone(), upper.clone(), *after > 0, x);
     }
@@ -77,12 +92,12 @@ fn cluster<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<
     Root { value: x, lower: lower.clone(), upper: upper.clone(), kind }
 }
 
-/// The order k ≥ 1 whose Taylor term is largest at this distance from the centre: near a k-fold root the k-th leads, if
-/// the distance is at least k times that of the root from the centre.
-fn dominant<S: Scalar, const N: usize>(p: &Polynomial<S, N>, centre: &S, distance: &S) -> usize {
+/// The order k ≥ 1 whose Taylor term is largest at this distance from a point: about a k-fold root the k-th leads, from a
+/// point beside it perhaps a lower one.
+fn dominant<S: Scalar, const N: usize>(p: &Polynomial<S, N>, at: &S, distance: &S) -> usize {
     let mut best = (1, S::zero());
     let mut power = S::one();
-    for (k, c) in p.taylor(centre).coefficients.into_iter().enumerate().skip(1) {
+    for (k, c) in p.taylor(at).coefficients.into_iter().enumerate().skip(1) {
         power = power * distance;
         let term = c.abs() * &power;
         if term > best.1 {

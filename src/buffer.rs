@@ -4,6 +4,8 @@
 //! slice that the caller lends, an `ArrayVec`, or (feature `alloc`) a `Vec`. A store that is full answers [`BufferFull`];
 //! nothing is lost silently.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::fmt;
 
 /// The store cannot take one more item. Lend a larger slice and start again.
@@ -100,7 +102,7 @@ impl<T, const N: usize> Store<T> for arrayvec::ArrayVec<T, N> {
 }
 
 #[cfg(feature = "alloc")]
-impl<T> Store<T> for alloc::vec::Vec<T> {
+impl<T> Store<T> for Vec<T> {
     fn push(&mut self, item: T) -> Result<(), BufferFull> {
         Self::push(self, item);
         Ok(())

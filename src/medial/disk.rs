@@ -111,17 +111,17 @@ impl<S: Scalar> Search<'_, S> {
         let [from, to] = &arc.span;
         let (v0, v1) = (from.clone() - &pencil.shift, to.clone() - &pencil.shift);
         let (e0, e1) = (pencil.at(&v0), pencil.at(&v1));
-        self.offer(&e0.a, &e0.b, arc, index, from);
-        self.offer(&e1.a, &e1.b, arc, index, to);
         let zero = S::zero();
         let span = Span { width: S::unit_roundoff().mul_pow2(6), pencil, arc, index };
+        self.offer(&e0, &span, from);
+        self.offer(&e1, &span, to);
         // Seen from a distance of its own length or more, an arc has one maximum inside, or none.
         let far = e1.delta.minus(&e0.delta).norm_sq() < e0.b.clone().min(e1.b.clone());
         if !far && e0.approach < zero && e1.approach > zero {
             // The point nearest to f lies inside: near it the quotient can change on a scale that the ends do not show.
             let v = falling_zero(v0.clone(), v1.clone(), &span.width, |v| pencil.recession(v));
             let e = pencil.at(&v);
-            self.offer(&e.a, &e.b, arc, index, &(v.clone() + &pencil.shift));
+            self.offer(&e, &span, &(v.clone() + &pencil.shift));
             let at_v = pencil.at(&v);
             self.search_span(&span, (v0, e0), (v.clone(), e));
             self.search_span(&span, (v, at_v), (v1, e1));
@@ -138,7 +138,7 @@ impl<S: Scalar> Search<'_, S> {
                 }
                 let at = v.clone() * &sign;
                 let e = pencil.at(&at);
-                self.offer(&e.a, &e.b, arc, index, &(at.clone() + &pencil.shift));
+                self.offer(&e, &span, &(at.clone() + &pencil.shift));
                 let outer = pencil.at(&at);
                 let from = inner.0.clone() * &sign;
                 if sign > S::zero() {
@@ -201,25 +201,28 @@ impl<S: Scalar> Search<'_, S> {
         }
         let v = falling_zero(v0, v1, width, |v| pencil.slope(v));
         let e = pencil.at(&v);
-        self.offer(&e.a, &e.b, span.arc, span.index, &(v + &pencil.shift));
+        self.offer(&e, span, &(v + &pencil.shift));
     }
 
+    /// Takes the disk through a point of the arc if it is smaller than the one so far.
     #[inline]
-    fn offer(&mut self, a: &S, b: &S, arc: &Arc<S>, index: u32, t: &S) {
-        if !(*a > S::zero() && *a > self.bend.clone() * b) {
+    fn offer(&mut self, e: &Values<S>, span: &Span<'_, S>, t: &S) {
+        let touching = e.b <= span.pencil.touching && span.pencil.touching > S::zero();
+        let radius = if touching {
+            S::zero()
+        } else if e.a > S::zero() && e.a > self.bend.clone() * &e.b {
+            (e.b.clone() / &e.a).half()
+        } else {
             return;
-        }
-        let touch = Touch { at: CurveParam { segment: arc.segment, t: t.clone() }, arc: index };
-        let bend = a.clone() / b;
-        let radius = if b.is_zero() { S::zero() } else { b.clone() / a };
-        let radius = radius.half();
-        if !radius.is_finite() {
+        };
+        if !radius.is_finite() || radius >= self.radius {
             return;
         }
         self.centre = self.foot.point.plus_scaled(&radius, &self.foot.direction);
         self.radius_sq = radius.clone().square();
+        self.bend = if touching { S::infinity() } else { e.a.clone() / &e.b };
         self.radius = radius;
-        self.bend = bend;
-        self.touch = Some(touch);
+        self.touch =
+            Some(Touch { at: CurveParam { segment: span.arc.segment, t: t.clone() }, arc: span.index });
     }
 }

@@ -40,6 +40,8 @@ pub(super) struct Pencil<S> {
     pub(super) shift: S,
     /// For a foot beside a joint, seen across it: how far, in parameters of its own segment. 0 otherwise.
     offset: S,
+    /// Squared distances up to this are a touching: the noise of plain differences. 0 for the other forms.
+    pub(super) touching: S,
 }
 
 /// Values of a pencil at one parameter.
@@ -94,6 +96,7 @@ impl<S: Scalar> Pencil<S> {
             delta: [origin, a1.clone(), a2.clone(), a3.clone()],
             shift: S::zero(),
             offset: S::zero(),
+            touching: (curve.noise.clone() * &S::int(4)).square(),
         }
     }
 
@@ -110,6 +113,7 @@ impl<S: Scalar> Pencil<S> {
             delta: [d0, d1, a3.clone(), Vector::zero()],
             shift: S::zero(),
             offset: S::zero(),
+            touching: S::zero(),
         }
     }
 
@@ -129,6 +133,7 @@ impl<S: Scalar> Pencil<S> {
                 delta: [b1, b2, b3, Vector::zero()],
                 shift,
                 offset: S::zero(),
+                touching: S::zero(),
             };
         }
         if on_joint {
@@ -137,6 +142,7 @@ impl<S: Scalar> Pencil<S> {
                 delta: [Vector::zero(), b1, b2, b3],
                 shift,
                 offset: S::zero(),
+                touching: S::zero(),
             };
         }
         let Some(own) = own else { return Self::plain(curve, foot, segment) };
@@ -152,7 +158,7 @@ impl<S: Scalar> Pencil<S> {
         let a0 = u.clone().square() * &e_f;
         let speed_q = b1.norm();
         if !smooth || !(foot.speed > S::zero() && speed_q > S::zero()) {
-            return Self { a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)], delta: [delta0, b1, b2, b3], shift, offset: u.abs() };
+            return Self { a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)], delta: [delta0, b1, b2, b3], shift, offset: u.abs(), touching: S::zero() };
         }
         // d·(q−e) with d written as the turned tangent at the joint plus what F's tangent turns on its way from there.
         // Everything is relative to |N(s)| = speed; sigma is the side that d is on.
@@ -169,7 +175,7 @@ impl<S: Scalar> Pencil<S> {
         let a1 = m.cross(&b1) * &uk;
         let a2 = m.cross(&b2) * &uk + &(b1.cross(&b2) * &muk);
         let a3 = m.cross(&b3) * &uk + &(b1.cross(&b3) * &muk);
-        Self { a: [a0, a1, a2, a3], delta: [delta0, b1, b2, b3], shift, offset }
+        Self { a: [a0, a1, a2, a3], delta: [delta0, b1, b2, b3], shift, offset, touching: S::zero() }
     }
 
     /// The foot's distance from the joint, if the interval [v0, v1] starts or ends there and f is near.

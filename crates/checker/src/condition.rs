@@ -95,6 +95,9 @@ pub struct Report {
 /// Bounds between probes are driven to within this share.
 const SLACK: f64 = 2e-3;
 
+/// So many local maxima of one part of a gap are polished, the largest first.
+const MAXIMA: usize = 8;
+
 /// One path with its samples, addressed by g = number of the piece + parameter along it.
 struct Track<'a> {
     drawing: &'a Drawing,
@@ -175,6 +178,7 @@ struct Judge<'a> {
 struct Probe {
     ratio: f64,
     bound: f64,
+    allowed: f64,
     floored: bool,
 }
 
@@ -189,7 +193,7 @@ impl Judge<'_> {
         let own = neighbours.into_iter().flatten().map(|s| p.distance(s)).fold(f64::INFINITY, f64::min);
         if floored {
             let floor = 1e-3 * self.evaluator.scene.drawing.diagonal;
-            return Probe { ratio: own / floor, bound: (own + h) / floor, floored };
+            return Probe { ratio: own / floor, bound: (own + h) / floor, allowed: floor, floored };
         }
         let floor = self.floor();
         // Nearer than a neighbour there may be any other sample.
@@ -199,7 +203,12 @@ impl Judge<'_> {
         let by = |d: f64, a: f64| if a == f64::INFINITY { 0.0 } else { d / a };
         let (feature, floor_ratio) = (by(any, allowed), by(own, floor));
         let bound = by(any + h, least).min(by(own + h, floor));
-        Probe { ratio: feature.min(floor_ratio), bound, floored: floor_ratio < feature }
+        Probe {
+            ratio: feature.min(floor_ratio),
+            bound,
+            allowed: allowed.max(floor).min(1e300),
+            floored: floor_ratio < feature,
+        }
     }
 
     /// Whether all points within h of p are left out.
@@ -252,10 +261,13 @@ impl Judge<'_> {
         for (i, &(m, ratio)) in probes.iter().enumerate() {
             let (l, r) = (i.saturating_sub(1), (i + 1).min(probes.len() - 1));
             // Coarse lfs may rank two maxima wrongly by its own error.
-            if ratio >= (1.0 - 3.0 * SLACK) * largest && ratio >= probes[l].1 && ratio >= probes[r].1 {
+            if ratio >= (1.0 - 3.0 * SLACK) * largest && (i == 0 || ratio > probes[l].1) && ratio >= probes[r].1 {
                 out.push((m, probes[l].0, probes[r].0, ratio));
             }
         }
+        // A plateau (D and lfs both proportional to the distance from a corner) has countless equal maxima.
+        out.sort_by(|a, b| b.3.total_cmp(&a.3));
+        out.truncate(MAXIMA);
         out
     }
 
@@ -268,6 +280,13 @@ impl Judge<'_> {
         };
         let (m, lo, hi) = at;
         let mut best = (m, exact(m));
+        // A step of 1e-8 of the distance that is allowed moves the ratio by about as much.
+        let allowed = if part.floored { 1e-3 * self.evaluator.scene.drawing.diagonal } else { best.1.allowed };
+        let width = track.length_bound(part.piece, lo, hi).max(1e-300);
+        let tolerance = (1e-8 * (part.x1 - part.x0)).max(3e-9 * allowed / width * (hi - lo));
+        if tolerance > hi - lo {
+            return best;
+        }
         minimise(
             |x| {
                 let probe = exact(x);
@@ -278,7 +297,7 @@ impl Judge<'_> {
             },
             lo,
             hi,
-            1e-8 * (part.x1 - part.x0),
+            tolerance,
         );
         best
     }
@@ -446,22 +465,15 @@ pub(crate) fn judge(
             }
         }
         let stretches = unite(stretches, n, closed);
-        for i in 0..track.count() {
-            let (cubic, _) = track.place(i, 0.0);
-            let cells = 100;
-            for cell in 0..cells {
-                let (a, b) = (f64::from(cell) / f64::from(cells), f64::from(cell + 1) / f64::from(cells));
-                let m = 0.5 * (a + b);
-                let (_, t) = track.place(i, m);
-                let l = drawing.cubics[cubic].velocity(t).norm() * (b - a);
-                length += l;
-                let g = i as f64 + m;
-                if stretches.iter().any(|s| s.0 <= g && g <= s.1)
-                    || epsilon * evaluator.coarse(track.at(i, m)).0 < judge.floor()
-                {
-                    under += l;
-                }
-            }
+        for part in parts(&track, 0.0, n, &stretches) {
+            let (cubic, a) = track.place(part.piece, part.x0);
+            let (_, b) = track.place(part.piece, part.x1);
+            let whole = drawing.cubics[cubic].length(a.min(b), a.max(b));
+            let cells = if part.floored { 0 } else { 100 };
+            let x = |cell: i32| part.x0 + (part.x1 - part.x0) * (f64::from(cell) + 0.5) / f64::from(cells);
+            let low = |&cell: &i32| epsilon * evaluator.coarse(track.at(part.piece, x(cell))).0 < judge.floor();
+            length += whole;
+            under += if part.floored { whole } else { whole * 0.01 * (0..cells).filter(low).count() as f64 };
         }
 
         let mut own: Vec<(f64, usize)> = Vec::new();

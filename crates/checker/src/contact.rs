@@ -94,6 +94,8 @@ fn sharp(c: &Cubic, limit: f64) -> Vec<f64> {
         let bend = v.cross(c.acceleration(t)).abs();
         v.norm() <= 0.01 * limit || v.norm().powi(3) < limit * bend
     });
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|a, b| c.length_bound(*b, *a) < limit);
     places
 }
 

@@ -440,7 +440,8 @@ impl Search<'_> {
                 places.push(v);
                 v *= 0.6;
             }
-            places.push(v);
+            // Where curvature jumps, the touching point may lie at v far below u: the slope at the joint itself tells.
+            places.extend([v, 0.0]);
             places.reverse();
             self.near_maxima(next.cubic, &places, across, |v| if next.last { 1.0 - v } else { v });
             let (lo, hi) = if next.last { (1.0 - reach, 1.0) } else { (0.0, reach) };

@@ -95,6 +95,18 @@ impl Evaluator {
                 }
             }
             let mut touch = self.medial.hint(i);
+            // The centre in the middle halves the chord; the bend that it shows is all but quartered by that. Most
+            // stretches are out of the race after this one disk.
+            let middle = self.medial.disk(&self.scene, l.strand, 0.5 * (l.x[0] + l.x[1]), touch);
+            touch = middle.touch;
+            if let Some(m) = middle.centre() {
+                bound = offer(p.distance(m), m).min(bound);
+                let off = m.distance_to_segment(l.a, l.b).0;
+                let left = p.distance_to_segment(l.a, m).0.min(p.distance_to_segment(m, l.b).0);
+                if left - off - 1e-4 * l.a.distance(l.b) >= bound {
+                    continue;
+                }
+            }
             let mut closest = (f64::INFINITY, p);
             let scene = &self.scene;
             minimise(
@@ -110,7 +122,7 @@ impl Evaluator {
                 },
                 lo,
                 hi,
-                1e-9 * (hi - lo),
+                1e-8 * (hi - lo),
             );
             bound = offer(closest.0, closest.1).min(bound);
             done.push((l.strand, lo, hi));

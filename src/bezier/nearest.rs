@@ -170,47 +170,61 @@ impl<'b, S: Scalar> View<'b, S> {
         let (start, end) = (self.distance_sq(&lo), self.distance_sq(&hi));
         let mut best = if end < start { (hi.clone(), end) } else { (lo.clone(), start.clone()) };
         let mut pending: ArrayVec<Stretch<S>, PENDING> = ArrayVec::new();
-        let mut current = self.look(Stretch { g, lo, hi, start, floor: S::zero() }, &mut best);
+        let mut stretch = Stretch { g, lo, hi, start, floor: S::zero() };
+        let Some(floor) = self.look(&stretch, &mut best) else {
+            return self.answer(best.0, best.1);
+        };
+        stretch.floor = floor;
         for _ in 0..16 * S::BITS {
-            let Some(stretch) = current.take().or_else(|| pending.pop()) else { break };
-            if stretch.floor >= worthwhile(&best.1) {
-                continue;
-            }
-            let mid = S::midpoint(&stretch.lo, &stretch.hi);
-            if !(stretch.lo < mid && mid < stretch.hi) {
-                continue;
-            }
-            let value = self.distance_sq(&mid);
-            if value < best.1 {
-                best = (mid.clone(), value.clone());
-            }
             let Stretch { g, lo, hi, start, floor } = stretch;
-            let (left, right) = bernstein::halve(g);
-            let left = Stretch { g: left, lo, hi: mid.clone(), start, floor: floor.clone() };
-            let right = Stretch { g: right, lo: mid, hi, start: value, floor };
-            let left = self.look(left, &mut best);
-            let right = self.look(right, &mut best);
-            current = match (left, right) {
-                (Some(l), Some(r)) => {
-                    let (sooner, later) = if r.floor < l.floor { (r, l) } else { (l, r) };
-                    if pending.is_full() {
-                        pending.retain(|waiting| waiting.floor < worthwhile(&best.1));
-                    }
-                    if !pending.is_full() {
-                        pending.push(later);
-                    }
-                    Some(sooner)
+            let mid = S::midpoint(&lo, &hi);
+            let mut next = None;
+            if floor < worthwhile(&best.1) && lo < mid && mid < hi {
+                let value = self.distance_sq(&mid);
+                if value < best.1 {
+                    best = (mid.clone(), value.clone());
                 }
-                (one, other) => one.or(other),
-            };
+                let (left, right) = bernstein::halve(g);
+                let mut left = Stretch { g: left, lo, hi: mid.clone(), start, floor: S::zero() };
+                let mut right = Stretch { g: right, lo: mid, hi, start: value, floor: S::zero() };
+                let left_floor = self.look(&left, &mut best);
+                let right_floor = self.look(&right, &mut best);
+                next = match (left_floor, right_floor) {
+                    (Some(l), Some(r)) => {
+                        let right_first = r < l;
+                        (left.floor, right.floor) = (l, r);
+                        let (sooner, later) = if right_first { (right, left) } else { (left, right) };
+                        if pending.is_full() {
+                            pending.retain(|waiting| waiting.floor < worthwhile(&best.1));
+                        }
+                        if !pending.is_full() {
+                            pending.push(later);
+                        }
+                        Some(sooner)
+                    }
+                    (Some(l), None) => {
+                        left.floor = l;
+                        Some(left)
+                    }
+                    (None, Some(r)) => {
+                        right.floor = r;
+                        Some(right)
+                    }
+                    (None, None) => None,
+                };
+            }
+            match next.or_else(|| pending.pop()) {
+                Some(other) => stretch = other,
+                None => break,
+            }
         }
         self.answer(best.0, best.1)
     }
 
-    /// Settles a stretch if it is monotone, cannot beat the best, or holds just one extremum; otherwise returns it, to be
-    /// halved. `best` is (t, F(t)).
+    /// Settles a stretch if it is monotone, cannot beat the best, or holds just one extremum; otherwise returns the lower
+    /// bound of F on it: it must be halved. `best` is (t, F(t)).
     #[inline]
-    fn look(&self, mut stretch: Stretch<S>, best: &mut (S, S)) -> Option<Stretch<S>> {
+    fn look(&self, stretch: &Stretch<S>, best: &mut (S, S)) -> Option<S> {
         let signs = Signs::of(&stretch.g, &S::zero());
         if signs.positive == 0 || signs.negative == 0 {
             return None;
@@ -229,15 +243,15 @@ impl<'b, S: Scalar> View<'b, S> {
             }
         }
         // F₀ + h Σ gᵢ/3; the coefficients are ten times too large
-        stretch.floor = (least * &S::ratio(1, 30) - &self.noise) * &width + &stretch.start;
-        if stretch.floor >= worthwhile(&best.1) {
+        let floor = (least * &S::ratio(1, 30) - &self.noise) * &width + &stretch.start;
+        if floor >= worthwhile(&best.1) {
             return None;
         }
         if !one_extremum {
-            return Some(stretch);
+            return Some(floor);
         }
         let start = bernstein::polygon_zero(&stretch.g, changes.trailing_zeros(), &stretch.lo, &stretch.hi);
-        let zero = in_bracket(|t| self.slope(t), stretch.lo, stretch.hi, true, start);
+        let zero = in_bracket(|t| self.slope(t), stretch.lo.clone(), stretch.hi.clone(), true, start);
         let value = self.distance_sq(&zero.x);
         if value < best.1 {
             *best = (zero.x, value);

@@ -202,6 +202,13 @@ impl<S: Scalar, const N: usize> Piece<S, N> {
         Self { b: on_interval(p, &lo, &hi), lo, hi: hi.clone(), noise, reach: hi }
     }
 
+    /// All coefficients are beyond the noise on one side: no root.
+    #[inline]
+    pub(crate) fn excludes_zero(&self) -> bool {
+        let signs = Signs::of(&self.b, &self.noise);
+        signs.positive == Signs::full::<N>() || signs.negative == Signs::full::<N>()
+    }
+
     /// 2N·u·L.
     #[inline]
     fn noise_per_weight() -> S {

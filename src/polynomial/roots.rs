@@ -97,7 +97,10 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
         let weight = self.weight();
         if Self::is_comfortable(&weight) && !self.coefficients[0].is_zero() {
             let mut roots = Roots::new();
-            search(self, Piece::unit(self, &weight), &mut roots);
+            let piece = Piece::unit(self, &weight);
+            if !piece.excludes_zero() {
+                search(self, piece, &mut roots);
+            }
             return Ok(roots);
         }
         self.roots_between(&S::zero(), &S::one())

@@ -15,4 +15,5 @@ pub mod medial;
 pub mod model;
 pub mod polynomial;
 pub mod predicate;
+pub mod sampling;
 pub mod scalar;

@@ -11,6 +11,7 @@ use crate::geometry::Point;
 use crate::geometry::hierarchy::{Item, Node};
 use crate::lfs::{self, LfsIndex};
 use crate::medial::{self, MedialPoint, Resolution};
+use crate::sampling::{self, Sample, SamplingError, SamplingOptions};
 use crate::scalar::Scalar;
 use alloc::vec::Vec;
 
@@ -85,6 +86,38 @@ impl<S: Scalar> CurveModel<S> {
         // A vector is never full.
         let _ = medial::walk(&self.curve(), path, resolution, &self.contacts, relevance, 0, &mut out);
         out
+    }
+
+    /// The samples of one path.
+    ///
+    /// # Errors
+    /// See [`SamplingError`].
+    pub fn sample_path(
+        &self,
+        medial: &MedialModel<S>,
+        path: u32,
+        options: &SamplingOptions<S>,
+    ) -> Result<Vec<Sample<S>>, SamplingError> {
+        let (mut out, mut scratch) = (Vec::new(), Vec::new());
+        let (curve, index) = (self.curve(), medial.index());
+        sampling::sample_path(&curve, &index, &self.contacts, path, options, &mut out, &mut scratch)?;
+        Ok(out)
+    }
+
+    /// The samples of all paths, in order.
+    ///
+    /// # Errors
+    /// See [`SamplingError`].
+    pub fn sample(
+        &self,
+        medial: &MedialModel<S>,
+        options: &SamplingOptions<S>,
+    ) -> Result<Vec<Sample<S>>, SamplingError> {
+        let mut all = Vec::new();
+        for (path, _) in (0_u32..).zip(self.curve().paths) {
+            all.append(&mut self.sample_path(medial, path, options)?);
+        }
+        Ok(all)
     }
 }
 

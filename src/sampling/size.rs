@@ -1,0 +1,173 @@
+//! How far a sample may serve: max(ε·lfs, floor).
+//!
+//! At corners, crossings, T-junctions, cusps and retracted handles lfs falls to 0 and no finite ε-sample exists. There a
+//! *floor* takes its place: the user's d_min anywhere, otherwise a thousandth of the diagonal on the *stretch* around such a
+//! point, that is the part of the path around it where ε·lfs is below that floor, and a ten-millionth elsewhere (strokes that
+//! nearly coincide). Where a stretch ends, ε·lfs equals the floor: the size stays continuous.
+//!
+//! Whether a position lies on a stretch is found by marching along the path in both directions until ε·lfs reaches the
+//! floor or a singular point is met. lfs is 1-Lipschitz, so a step of (floor − ε·lfs)/ε cannot jump over the stretch's end.
+//! The answer is remembered for the interval that was marched through.
+
+use super::run::{Pos, Run, RunEnd};
+use super::{Condition, SamplingOptions};
+use crate::curve::contact::Contact;
+use crate::geometry::Point;
+use crate::lfs::FeatureSize;
+use crate::scalar::Scalar;
+use core::cell::RefCell;
+
+/// A size and where it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Size<S> {
+    /// The sample must be nearer than this.
+    pub reach: S,
+    /// A floor took the place of ε·lfs.
+    pub floored: bool,
+}
+
+/// The remembered interval: its ends, and whether a singular point lies on it.
+type Stretch<S> = (Pos<S>, Pos<S>, bool);
+
+/// Sizes along one run.
+pub struct Sizes<'r, S, F> {
+    run: &'r Run<'r, S>,
+    features: &'r F,
+    contacts: &'r [Contact<S>],
+    options: &'r SamplingOptions<S>,
+    /// ε·(1 − tolerance), or ρ likewise; `None` without feature condition.
+    factor: Option<S>,
+    stretch: RefCell<Option<Stretch<S>>>,
+}
+
+impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
+    /// Sizes along a run; `scale` in (0, 1] multiplies ε.
+    pub fn new(
+        run: &'r Run<'r, S>,
+        features: &'r F,
+        contacts: &'r [Contact<S>],
+        options: &'r SamplingOptions<S>,
+        scale: &S,
+    ) -> Self {
+        let factor = match &options.condition {
+            Condition::Epsilon(e) | Condition::Rho(e) => Some((S::one() - &options.tolerance) * e * scale),
+            Condition::Unbounded => None,
+        };
+        Self { run, features, contacts, options, factor, stretch: RefCell::new(None) }
+    }
+
+    /// ε·(1 − tolerance)·scale.
+    pub fn factor(&self) -> Option<&S> {
+        self.factor.as_ref()
+    }
+
+    /// lfs as given.
+    pub fn lfs(&self, p: &Pos<S>, point: &Point<S>) -> S {
+        self.features.lfs(&self.run.place(p), point)
+    }
+
+    /// The size at a position of the run, whose point is known.
+    pub fn at(&self, p: &Pos<S>, point: &Point<S>) -> Size<S> {
+        let Some(factor) = &self.factor else {
+            return Size { reach: S::infinity(), floored: false };
+        };
+        let lfs = self.lfs(p, point);
+        self.floored(p, lfs, factor)
+    }
+
+    /// max(factor·lfs, floor).
+    pub fn floored(&self, p: &Pos<S>, lfs: S, factor: &S) -> Size<S> {
+        let reach = if lfs.is_finite() { lfs * factor } else { S::infinity() };
+        if let Some(min) = &self.options.min_distance {
+            let floored = reach < *min;
+            return Size { reach: reach.max(min.clone()), floored };
+        }
+        let diagonal = self.run.curve.diagonal;
+        let singular = self.options.singular_floor.clone() * diagonal;
+        if reach >= singular {
+            return Size { reach, floored: false };
+        }
+        let floor = if self.on_stretch(p, factor, &singular) {
+            singular
+        } else {
+            self.options.floor.clone() * diagonal
+        };
+        let floored = reach < floor;
+        Size { reach: reach.max(floor), floored }
+    }
+
+    /// A singular point lies on the stretch around p where factor·lfs is below `floor`.
+    fn on_stretch(&self, p: &Pos<S>, factor: &S, floor: &S) -> bool {
+        if let Some((from, to, singular)) = &*self.stretch.borrow()
+            && p >= from
+            && p <= to
+        {
+            return *singular;
+        }
+        let (to, after) = self.march(p, factor, floor, true);
+        let (from, before) = self.march(p, factor, floor, false);
+        let singular = after || before;
+        *self.stretch.borrow_mut() = Some((from, to, singular));
+        singular
+    }
+
+    /// Marches from p to where factor·lfs reaches the floor. The last position below it, and whether the way met a singular
+    /// point.
+    fn march(&self, p: &Pos<S>, factor: &S, floor: &S, forwards: bool) -> (Pos<S>, bool) {
+        let run = self.run;
+        let mut here = p.clone();
+        let mut met = self.singular_between(&here, &here);
+        let (stop, ending) =
+            if forwards { (&run.end, &run.ends[1]) } else { (&run.start, &run.ends[0]) };
+        // Each step moves by a 64th of the floor at least, or to the end of a segment: the loop ends.
+        loop {
+            if here == *stop {
+                return (here, met || *ending == RunEnd::Singular);
+            }
+            let reach = self.lfs(&here, &run.point(&here)) * factor;
+            let step = ((floor.clone() - &reach) / factor).max(floor.clone().mul_pow2(-6));
+            if reach >= *floor {
+                return (here, met);
+            }
+            let next = if forwards { run.advance(&here, &step) } else { self.retreat(&here, &step) };
+            let (a, b) = if forwards { (&here, &next) } else { (&next, &here) };
+            met |= self.singular_between(a, b);
+            here = next;
+        }
+    }
+
+    /// [`Run::advance`] backwards.
+    fn retreat(&self, p: &Pos<S>, length: &S) -> Pos<S> {
+        let run = self.run;
+        let here = if p.t <= S::zero() && p.k > run.start.k { Pos { k: p.k - 1, t: S::one() } } else { p.clone() };
+        let Some(segment) = run.segment(here.k) else { return run.start.clone() };
+        let speed = segment.power.derivative(&here.t).norm();
+        let bend =
+            segment.power.second_derivative(&here.t).norm().max(segment.power.second_derivative(&S::zero()).norm());
+        let root = (bend * length).twice() + &speed.clone().square();
+        let slope = speed + &root.sqrt();
+        let to = if slope > S::zero() { here.t.clone() - &(length.clone().twice() / &slope) } else { S::zero() };
+        let [first, _] = run.window(here.k);
+        if to > first && to < here.t { Pos { k: here.k, t: to } } else { Pos { k: here.k, t: first } }
+    }
+
+    /// A contact lies between two positions of one segment, ends included.
+    fn singular_between(&self, a: &Pos<S>, b: &Pos<S>) -> bool {
+        let k = b.k;
+        let index = self.run.segment_index(k);
+        let from = if a.k < k { S::zero() } else { a.t.clone() };
+        let to = b.t.clone();
+        let (index, from, to) = match self.run.curve.segment(index).and_then(|s| s.twin) {
+            Some(t) if t.reversed => (t.segment, S::one() - &to, S::one() - &from),
+            Some(t) => (t.segment, from, to),
+            None => (index, from, to),
+        };
+        let first = self.contacts.partition_point(|c| c.segment < index);
+        self.contacts
+            .get(first..)
+            .unwrap_or_default()
+            .iter()
+            .take_while(|c| c.segment == index)
+            .any(|c| c.span[0] <= to && c.span[1] >= from)
+    }
+}

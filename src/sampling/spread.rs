@@ -1,0 +1,175 @@
+//! A run's samples, evenly spread.
+//!
+//! Greedy sampling leaves whatever is left for the last gap, often a sliver. The smallest ε' ≤ ε that needs as many samples
+//! spreads the slack over all gaps: the count is the same, every bound still holds (each is scaled down together, lengths
+//! by the scale, chord error by its square), and no two neighbours sit needlessly close at a seam, an end or a corner.
+//!
+//! The scale is found by a few trials: a run of n gaps whose last one is a share of a full one suggests the scale
+//! (n − 1 + share)/n. Trials that need more samples bound it from below.
+
+use super::run::{Pos, Run};
+use super::size::Sizes;
+use super::step::{self, Caps, Next};
+use super::{Bound, Sample, SamplingError, SamplingOptions};
+use crate::buffer::Store;
+use crate::curve::contact::Contact;
+use crate::lfs::FeatureSize;
+use crate::scalar::Scalar;
+
+/// Trials after the first; each brings the last gap nearer to the others.
+const TRIALS: u32 = 5;
+
+/// What a trial gave.
+struct Trial<S> {
+    /// Gaps of the run.
+    gaps: u32,
+    /// The last gap as a share of the one before it, at most 1.
+    share: S,
+}
+
+/// Appends the samples strictly inside a run.
+///
+/// `cap` limits the gap after a position (grading); it is asked before every step.
+///
+/// # Errors
+/// See [`SamplingError`].
+pub fn inner_samples<S: Scalar, F: FeatureSize<S>>(
+    run: &Run<'_, S>,
+    features: &F,
+    contacts: &[Contact<S>],
+    options: &SamplingOptions<S>,
+    cap: &impl Fn(&Pos<S>) -> Option<S>,
+    out: &mut impl Store<Sample<S>>,
+) -> Result<(), SamplingError> {
+    let base = out.items().len();
+    let spreader = Spreader { run, features, contacts, options, cap, base };
+    let first = spreader.trial(&S::one(), out)?;
+    if first.gaps > 1 && first.share < S::ratio(63, 64) {
+        let gaps = first.gaps;
+        let target = |share: &S, gaps: u32| {
+            let n = S::int(i32::try_from(gaps).unwrap_or(i32::MAX));
+            (n.clone() - &S::one() + share) / &n
+        };
+        let (mut low, mut high, mut last) = (S::zero(), S::one(), S::one());
+        let mut guess = target(&first.share, gaps);
+        for _ in 0..TRIALS {
+            if guess >= high || guess <= low {
+                break;
+            }
+            let trial = spreader.trial(&guess, out)?;
+            last = guess.clone();
+            if trial.gaps <= gaps {
+                high = guess.clone();
+                if trial.share >= S::ratio(63, 64) {
+                    break;
+                }
+                guess = guess * &target(&trial.share, gaps);
+                if guess <= low {
+                    guess = S::midpoint(&low, &high);
+                }
+            } else {
+                low = guess;
+                guess = S::midpoint(&low, &high);
+            }
+        }
+        if last != high {
+            spreader.trial(&high, out)?;
+        }
+    }
+    spreader.keep_distance(out);
+    spreader.look_up(out);
+    Ok(())
+}
+
+struct Spreader<'r, S, F, C> {
+    run: &'r Run<'r, S>,
+    features: &'r F,
+    contacts: &'r [Contact<S>],
+    options: &'r SamplingOptions<S>,
+    cap: &'r C,
+    base: usize,
+}
+
+impl<S: Scalar, F: FeatureSize<S>, C: Fn(&Pos<S>) -> Option<S>> Spreader<'_, S, F, C> {
+    /// Greedy samples with all bounds scaled, in place of what the last trial left.
+    fn trial(&self, scale: &S, out: &mut impl Store<Sample<S>>) -> Result<Trial<S>, SamplingError> {
+        out.shorten(self.base);
+        let run = self.run;
+        let sizes = Sizes::new(run, self.features, self.contacts, self.options, scale);
+        let chord = self.options.chord_error.as_ref().map(|c| c.clone() * scale * scale);
+        let max = self.options.max_distance.as_ref().map(|m| m.clone() * scale);
+        let mut here = run.start.clone();
+        let mut point = run.point(&here);
+        let mut before = S::infinity();
+        for gaps in 1..=self.options.limit {
+            let graded = (self.cap)(&here).map(|g| g * scale);
+            let caps = Caps { chord: chord.clone(), max: max.clone(), graded };
+            let Next { pos, bound } = step::next(run, &sizes, self.options, &caps, &here);
+            let there = run.point(&pos);
+            let gap = there.distance(&point);
+            if pos >= run.end {
+                let share = if before > gap && before.is_finite() { gap / &before } else { S::one() };
+                return Ok(Trial { gaps, share });
+            }
+            out.push(Sample {
+                path: run.index,
+                at: run.place(&pos),
+                point: there.clone(),
+                lfs: S::infinity(),
+                bound,
+            })?;
+            before = gap;
+            here = pos;
+            point = there;
+        }
+        Err(SamplingError::Limit(self.options.limit))
+    }
+
+    /// The last inner sample is moved back, or dropped, where it is nearer than d_min to the run's end.
+    fn keep_distance(&self, out: &mut impl Store<Sample<S>>) {
+        let Some(min) = &self.options.min_distance else { return };
+        let end = self.run.point(&self.run.end);
+        let count = out.items().len();
+        if count <= self.base {
+            return;
+        }
+        let before = if count >= self.base + 2 {
+            out.items().get(count - 2).map(|s| (self.position_of(s), s.point.clone()))
+        } else {
+            Some((self.run.start.clone(), self.run.point(&self.run.start)))
+        };
+        let (Some(last), Some((before, point))) = (out.items().last().cloned(), before) else { return };
+        if last.point.distance(&end) >= *min {
+            return;
+        }
+        // The middle of what is left, if both halves keep the distance; otherwise the sample goes.
+        let middle = self.run.between(&before, &self.run.end, &S::one().half());
+        let p = self.run.point(&middle);
+        if p.distance(&point) >= *min && p.distance(&end) >= *min {
+            if let Some(s) = out.items_mut().last_mut() {
+                s.at = self.run.place(&middle);
+                s.point = p;
+                s.bound = Bound::Min;
+            }
+        } else {
+            out.shorten(count - 1);
+        }
+    }
+
+    /// The run's position of one of its samples.
+    fn position_of(&self, s: &Sample<S>) -> Pos<S> {
+        let n = s.at.segment - self.run.path.first;
+        let mut k = (n + self.run.path.count - self.run.first) % self.run.path.count;
+        if k == self.run.start.k && s.at.t < self.run.start.t {
+            k += self.run.path.count;
+        }
+        Pos { k, t: s.at.t.clone() }
+    }
+
+    /// Fills in lfs.
+    fn look_up(&self, out: &mut impl Store<Sample<S>>) {
+        for s in out.items_mut().iter_mut().skip(self.base) {
+            s.lfs = self.features.lfs(&s.at, &s.point);
+        }
+    }
+}

@@ -41,6 +41,19 @@ impl Polyline {
         (1..count).map(|i| (i - 1, i)).chain(closing)
     }
 
+    /// Removes vertices nearer than `below` to the one before them. Drawings close with lines of 1e-16, which no driver
+    /// would send to its machine, and which would count here as points with gaps of nothing.
+    pub fn without_slivers(mut self, below: f64) -> Self {
+        self.vertices.dedup_by(|next, kept| next.point.distance(&kept.point) < below);
+        if self.closed
+            && self.vertices.len() > 1
+            && self.vertices.first().zip(self.vertices.last()).is_some_and(|(a, b)| a.point.distance(&b.point) < below)
+        {
+            self.vertices.pop();
+        }
+        self
+    }
+
     /// From places on a path.
     fn through(cubics: &[Cubic<f64>], closed: bool, places: impl IntoIterator<Item = Location>) -> Self {
         let vertex = |at: Location| Some(Vertex { at, point: cubics.get(at.segment)?.eval(&at.t) });
@@ -324,6 +337,13 @@ mod tests {
         let steps = steps_for(std::iter::once(circle.as_slice()), 0.01, 1000);
         let error = |steps| chord_error(&circle, &uniform(&circle, true, steps));
         assert!(error(steps) <= 0.01 && error(steps - 1) > 0.01, "the fewest steps: {steps}");
+    }
+
+    #[test]
+    fn slivers_go() {
+        let at = |x: f64| Vertex { at: Location::new(0, x), point: Point::new(x, 0.0) };
+        let line = Polyline { closed: true, vertices: [0.0, 1.0, 1.0 + 1e-14, 0.5, 1e-14].map(at).to_vec() };
+        assert_eq!(line.without_slivers(1e-9).vertices, [0.0, 1.0, 0.5].map(at), "the first of each place stays");
     }
 
     #[test]

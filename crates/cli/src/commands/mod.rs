@@ -1,0 +1,25 @@
+//! One file per command.
+
+mod compare;
+mod completions;
+mod inspect;
+mod lfs;
+mod man;
+mod medial;
+mod sample;
+
+use crate::errors::Failure;
+use crate::options::Command;
+
+/// Runs a command.
+pub(crate) fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Sample(args) => sample::run(&args),
+        Command::Medial(args) => medial::run(&args),
+        Command::Lfs(args) => lfs::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Completions(args) => completions::run(&args),
+        Command::Man(args) => man::run(&args),
+    }
+}

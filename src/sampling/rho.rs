@@ -25,12 +25,13 @@ pub fn next<S: Scalar, F: FeatureSize<S>>(
     if !first.reach.is_finite() {
         return (run.end.clone(), false);
     }
-    let precision = S::one().mul_pow2(-16).max(S::unit_roundoff().mul_pow2(4));
+    // Where lfs is constant the enclosure of its minimum costs 1/precision look-ups a gap.
+    let precision = S::one().mul_pow2(-8);
     let mut floored = first.floored;
     let mut inner = s.clone();
     let mut least = first.reach.clone();
     let mut step = first.reach;
-    let shortest = least.clone() * &precision;
+    let shortest = least.clone() * &precision.clone().square();
     // The step doubles while it succeeds and halves while it fails: a bracket in about twice the bits of the precision.
     let mut grow = true;
     for _ in 0..256 {

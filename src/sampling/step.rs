@@ -33,6 +33,16 @@ fn precision<S: Scalar>() -> S {
     S::one().mul_pow2(-20).max(S::unit_roundoff().mul_pow2(4))
 }
 
+/// The share where ε is so large that a march must not try long steps: it converges slowly, so it ends earlier.
+fn coarse_precision<S: Scalar>() -> S {
+    S::one().mul_pow2(-11)
+}
+
+/// Whether ε is below 2/√5 ≈ 0.894 (16/18 is a little less): the condition then has one zero along the path.
+fn crosses_once<S: Scalar>(factor: &S) -> bool {
+    factor.clone() * &S::int(9) < S::int(8)
+}
+
 /// Marching steps before a search gives up and takes the safe side; each step of a march gains at least a share of what is
 /// left, so that this is never reached on a curve.
 const STEPS: u32 = 4096;
@@ -89,11 +99,14 @@ fn by_features<S: Scalar, F: FeatureSize<S>>(
         return Next { pos: run.end.clone(), bound: Bound::End };
     };
     let centre = run.point(&x);
-    let mut y = leaves(run, &x, &centre, &reach, &run.end);
-    // Above 2/√5 (0.894; 16/18 is a little less) the stretch between x and y must be looked at.
-    if factor.clone() * &S::int(9) >= S::int(8) {
-        y = checked(run, sizes, factor, &x, y);
-    }
+    let mut y = if crosses_once(factor) {
+        leaves(run, &x, &centre, &reach, &run.end)
+    } else {
+        // The stretch between x and y must be looked at, and that needs some room at x.
+        let room = reach.clone() * &(S::one() - &coarse_precision::<S>().twice());
+        let y = leaves(run, &x, &centre, &room, &run.end);
+        checked(run, sizes, factor, &x, y)
+    };
     // A step must lead on.
     if y <= *s {
         y = run.advance(s, &(reach * &precision::<S>()));
@@ -119,7 +132,8 @@ fn covered<S: Scalar, F: FeatureSize<S>>(
         let e = if size.reach.is_finite() { point.distance(here) - &size.reach } else { -S::infinity() };
         (e, size)
     };
-    let unique = factor.clone() * &S::int(9) < S::int(8);
+    let unique = crosses_once(factor);
+    let width = if unique { precision::<S>() } else { coarse_precision() };
     let slope = S::one() + factor;
     let mut inner = s.clone();
     let (mut lack, mut size) = excess(&inner);
@@ -133,7 +147,7 @@ fn covered<S: Scalar, F: FeatureSize<S>>(
             return None;
         }
         let left = -lack.clone();
-        if left <= size.reach.clone() * &precision::<S>() {
+        if left <= size.reach.clone() * &width {
             break;
         }
         // On a straight stretch with constant size the zero is `left` away; that is tried first.
@@ -148,7 +162,7 @@ fn covered<S: Scalar, F: FeatureSize<S>>(
                 size = at;
                 break;
             }
-            if step <= safe || step <= at.reach.clone() * &precision::<S>() {
+            if step <= safe || step <= at.reach.clone() * &width {
                 // Beyond it by rounding only.
                 return Some((inner, size.reach, size.floored));
             }
@@ -217,10 +231,10 @@ fn checked<S: Scalar, F: FeatureSize<S>>(
         let point = run.point(&p);
         let size = sizes.at(&p, &point);
         let left = size.reach.clone() - &point.distance(&target);
-        let least = size.reach.clone() * &precision::<S>();
-        if left <= S::zero() {
-            // Some y nearer to p is needed; a share more, so that the march gets on.
-            let nearer = size.reach * &(S::one() - &S::one().mul_pow2(-10));
+        let room = size.reach.clone() * &coarse_precision::<S>();
+        if left < room {
+            // Some y nearer to p is needed; nearer by more than the room, so that the march gets on.
+            let nearer = size.reach - &room.twice();
             let back = leaves(run, &p, &point, &nearer, &y);
             if back >= y {
                 break;
@@ -228,7 +242,7 @@ fn checked<S: Scalar, F: FeatureSize<S>>(
             y = back;
             target = run.point(&y);
         } else {
-            p = run.advance(&p, &(left / &slope).max(least));
+            p = run.advance(&p, &(left / &slope));
         }
     }
     y

@@ -67,7 +67,7 @@ pub(super) struct Scale {
 
 impl Scale {
     /// How many decades the scale spans at most: lfs falls to 0 at corners, and a logarithm needs a floor.
-    const DECADES: i32 = 4;
+    const DECADES: i32 = 3;
 
     /// The scale that holds some values; `None` if no value is finite and positive.
     pub(super) fn over(values: impl Iterator<Item = f64>) -> Option<Self> {

@@ -121,7 +121,7 @@ impl Page<'_> {
 
     /// The curves, in their groups.
     fn drawing_layer(&mut self) -> io::Result<()> {
-        let width = Number(0.002 * self.diagonal);
+        let width = Number(0.0015 * self.diagonal);
         self.open_layer("drawing", &format!(r##"fill="none" stroke="#555555" stroke-width="{width}""##))?;
         let drawing = self.drawing;
         // What a `use` repeats comes with the same ids again: only the first keeps them.
@@ -183,7 +183,7 @@ impl Page<'_> {
     /// The curve in colours. Neighbouring stretches of one colour are one element: a picture of a thousand foot points
     /// per cubic would otherwise be too heavy for its viewers.
     fn lfs_layer(&mut self, paths: &[PathRows<LfsRow>]) -> io::Result<()> {
-        let width = Number(0.004 * self.diagonal);
+        let width = Number(0.003 * self.diagonal);
         let style = format!(r#"fill="none" stroke-width="{width}" stroke-linecap="round""#);
         self.open_layer("lfs", &style)?;
         let drawing = self.drawing;
@@ -224,7 +224,7 @@ impl Page<'_> {
     /// The scale of the colours, in the lower left corner of the frame.
     fn legend(&mut self, scale: Option<Scale>) -> io::Result<()> {
         const BLOCKS: u32 = 48;
-        const LABELS: u32 = 4;
+        const LABELS: u32 = 3;
         let [x, y, width, height] = self.frame;
         let unit = 0.01 * width.min(height);
         let (length, left, bottom) = ((40.0 * unit).min(0.9 * width), x + 3.0 * unit, y + height - 3.0 * unit);
@@ -256,8 +256,13 @@ impl Page<'_> {
             let place = f64::from(i) / f64::from(LABELS);
             let [x, y] = [left + place * length, bottom].map(|v| trimmed(v, 6));
             let below = if i == 0 && scale.cut { "≤ " } else { "" };
-            let value = Readable(scale.value(place));
-            writeln!(self.out, r#"<text x="{x}" y="{y}" text-anchor="middle">{below}{value}</text>"#)?;
+            let anchor = match i {
+                0 => "start",
+                LABELS => "end",
+                _ => "middle",
+            };
+            let value = two_digits(scale.value(place));
+            writeln!(self.out, r#"<text x="{x}" y="{y}" text-anchor="{anchor}">{below}{value}</text>"#)?;
         }
         self.close()
     }
@@ -265,7 +270,7 @@ impl Page<'_> {
     /// Medial polylines, one element each, cut where they leave the surroundings of the frame: outer branches run off
     /// to radii without bound.
     fn medial_layer(&mut self, paths: &[PathRows<MedialRow>]) -> io::Result<()> {
-        let width = Number(0.0012 * self.diagonal);
+        let width = Number(0.0008 * self.diagonal);
         let style = format!(r##"fill="none" stroke="#1f77b4" stroke-width="{width}" stroke-linejoin="round""##);
         self.open_layer("medial", &style)?;
         let [x, y, width, height] = self.frame;
@@ -274,7 +279,7 @@ impl Page<'_> {
             (x - margin..=x + width + margin).contains(&row.mx) && (y - margin..=y + height + margin).contains(&row.my)
         };
         // Points nearer to the last one drawn than half the width of the line cannot be seen.
-        let step = 0.0006 * self.diagonal;
+        let step = 0.0004 * self.diagonal;
         for (index, path) in paths.iter().enumerate() {
             self.open_path_group("medial", index)?;
             for polyline in path.rows.chunk_by(|a, b| a.polyline == b.polyline && near(a) == near(b)) {
@@ -301,7 +306,7 @@ impl Page<'_> {
 
     /// Samples as dots; ends and corners, which no bound can move, in a second colour.
     fn samples_layer(&mut self, paths: &[PathRows<SampleRow>]) -> io::Result<()> {
-        let radius = Number(0.003 * self.diagonal);
+        let radius = Number(dot_radius(paths, self.diagonal));
         self.open_layer("samples", r##"fill="#d62728" stroke="none""##)?;
         for (index, path) in paths.iter().enumerate() {
             self.open_path_group("samples", index)?;
@@ -314,6 +319,20 @@ impl Page<'_> {
         }
         self.close()
     }
+}
+
+/// How large dots may be without hiding the curve between them: a share of the middle gap, in bounds.
+fn dot_radius(paths: &[PathRows<SampleRow>], diagonal: f64) -> f64 {
+    let gap = |(a, b): (&SampleRow, &SampleRow)| Point::new(a.x, a.y).distance(&Point::new(b.x, b.y));
+    let mut gaps: Vec<f64> = paths.iter().flat_map(PathRows::edges).map(gap).collect();
+    gaps.sort_by(f64::total_cmp);
+    let middle = gaps.get(gaps.len() / 2).copied().unwrap_or(f64::INFINITY);
+    (0.3 * middle).clamp(0.002 * diagonal, 0.003 * diagonal)
+}
+
+/// A label of a scale needs no more.
+fn two_digits(value: f64) -> Readable {
+    Readable(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 /// The groups around something, outermost first.

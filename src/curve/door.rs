@@ -445,10 +445,11 @@ impl<S: Scalar> Door<'_, S> {
             let handles = (!uniform).then_some(handles);
             return Self::add(path, Source { handles, ..whole }, Cubic::line(a, b), segments);
         }
-        let nothing = self.nothing();
+        // Handles that rounding left over point anywhere, and would hook the curve at a scale below every floor.
+        let left_over = self.nothing() * &S::int(100);
         for (near, far) in [(0, 1), (3, 2)] {
             if let (Some(a), Some(b)) = (cubic.points.get(near).cloned(), cubic.points.get_mut(far))
-                && a.distance(b) < nothing
+                && a.distance(b) < left_over
             {
                 *b = a;
             }

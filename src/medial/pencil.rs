@@ -17,8 +17,10 @@
 //!   N(s)·(q−f) = u² E_F(s,e) + u v M×D_Q ± μ v² N_Q·(b₂ + v b₃): each term is small by itself, none is a difference of
 //!   large ones. Here D_F = (B_F(s)−B_F(e))/u, M = (B_F'(s)−B_F'(e))/u, μ = |B_F'(e)|/|B_Q'(e')|, and the sign says whether
 //!   the two segments run the same way;
-//! * **anything else**: plain differences, from whose A the noise of the coordinates is subtracted, so that rounding never
-//!   makes a disk collapse.
+//! * **anything else**: plain differences.
+//!
+//! From A the noise of the coordinates is subtracted, so that rounding never makes a disk collapse, nor bends a straight
+//! line.
 //!
 //! Sources: DESIGN section 3, fact 4; divided differences across joints, specification of certificates, section
 //! "Formulation that worked", 5.
@@ -70,18 +72,17 @@ impl<S: Scalar> Pencil<S> {
             // A closed segment can come back to f at its other end: that is seen across the joint.
             let closed = far_half && curve.joint(EndId::new(index, 0)).any(|e| e == EndId::new(index, 1));
             if !closed {
-                return Self::own(foot, segment);
+                return Self::own(curve, foot, segment);
             }
         }
         let near_end = foot.end.unwrap_or_else(|| EndId::new(foot.at.segment, usize::from(foot.at.t > half)));
-        for other in curve.joint(near_end) {
-            let same = other == near_end;
-            if other.segment() == index && (!same || foot.side == Side::Fan) {
-                let at_this_end = (other.side() == 1) == (*t > half);
-                if at_this_end {
-                    return Self::across(curve, foot, near_end, other, segment);
-                }
-            }
+        let candidate = |e: &EndId| e.segment() == index && (*e != near_end || foot.side == Side::Fan);
+        let mut ends = curve.joint(near_end).filter(candidate);
+        if let Some(first) = ends.next() {
+            // A segment that meets the joint with both ends is seen across the one that is nearer.
+            let nearer = ends.find(|e| (e.side() == 1) == (*t > half));
+            let other = nearer.filter(|_| (first.side() == 1) != (*t > half)).unwrap_or(first);
+            return Self::across(curve, foot, near_end, other, segment);
         }
         Self::plain(curve, foot, segment)
     }
@@ -101,7 +102,7 @@ impl<S: Scalar> Pencil<S> {
     }
 
     /// The foot's own segment, divided by (t−s)².
-    fn own(foot: &Foot<S>, segment: &Segment<S>) -> Self {
+    fn own(curve: &Curve<'_, S>, foot: &Foot<S>, segment: &Segment<S>) -> Self {
         let [a1, a2, a3] = &segment.power.a;
         let s = &foot.at.t;
         let d1 = a2.plus_scaled(s, a3);
@@ -109,7 +110,7 @@ impl<S: Scalar> Pencil<S> {
         let e0 = foot.direction.dot(&a2.plus_scaled(&s.clone().twice(), a3));
         let e1 = foot.direction.dot(a3);
         Self {
-            a: [e0, e1, S::zero(), S::zero()],
+            a: [e0 - curve.noise, e1, S::zero(), S::zero()],
             delta: [d0, d1, a3.clone(), Vector::zero()],
             shift: S::zero(),
             offset: S::zero(),
@@ -129,7 +130,7 @@ impl<S: Scalar> Pencil<S> {
         if on_joint && foot.side != Side::Fan && smooth {
             // A and B have the common factor v².
             return Self {
-                a: [d.dot(&b2), d.dot(&b3), S::zero(), S::zero()],
+                a: [d.dot(&b2) - curve.noise, d.dot(&b3), S::zero(), S::zero()],
                 delta: [b1, b2, b3, Vector::zero()],
                 shift,
                 offset: S::zero(),

@@ -222,6 +222,23 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         Station { at: foot.at, foot: foot.point, direction: foot.direction, side: foot.side, radius, centre, touch }
     }
 
+    /// Looks at the normal to one side of a place. At a retracted end the curvature is unbounded on one side: there the
+    /// medial axis runs into the curve.
+    fn side_station(&mut self, at: CurveParam<S>, side: Side) -> Option<Station<S>> {
+        let segment = self.curve.segment(at.segment)?;
+        let end = usize::from(at.t > S::zero());
+        if (at.t <= S::zero() || at.t >= S::one()) && segment.end(end).retracted {
+            let near = S::one().mul_pow2(-10);
+            let inside = if end == 0 { near } else { S::one() - &near };
+            let bend = segment.power.derivative(&inside).cross(&segment.power.second_derivative(&inside));
+            if (bend > S::zero()) == (side == Side::Left) && !bend.is_zero() {
+                return self.on_curve(at);
+            }
+        }
+        let foot = Foot::normal(self.curve, at, side)?;
+        Some(self.station(foot))
+    }
+
     /// A vertex on the curve itself.
     fn on_curve(&self, at: CurveParam<S>) -> Option<Station<S>> {
         let foot = self.curve.point(&at)?;
@@ -247,8 +264,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         let arcs = curve.arcs_of(segment);
         let forwards = side == Side::Left;
         let start_t = if forwards { S::zero() } else { S::one() };
-        let Some(foot) = Foot::normal(curve, CurveParam { segment: index, t: start_t }, side) else { return Ok(()) };
-        let mut here = self.station(foot);
+        let Some(mut here) = self.side_station(CurveParam { segment: index, t: start_t }, side) else { return Ok(()) };
         if !self.joined {
             self.emit(&here)?;
         }
@@ -263,8 +279,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
                 here = self.cell(here, there, arc, side)?;
             }
             let t = if forwards { &arc.span[1] } else { &arc.span[0] };
-            let Some(foot) = Foot::normal(curve, CurveParam { segment: index, t: t.clone() }, side) else { break };
-            let there = self.station(foot);
+            let Some(there) = self.side_station(CurveParam { segment: index, t: t.clone() }, side) else { break };
             here = self.cell(here, there, arc, side)?;
         }
         self.joined = true;
@@ -348,10 +363,15 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
             };
             let t = S::midpoint(low, high);
             let apart = t > *low && t < *high;
-            if length > self.floor && apart && !pending.is_full() {
+            // A short stretch still matters where its medial points lie apart: towards an end of unbounded curvature they
+            // move like the square root of the length.
+            let spread = top.station.radius.is_finite()
+                && here.radius.is_finite()
+                && here.centre.distance(&top.station.centre) > self.floor.clone() * &S::int(100);
+            if (length > self.floor || spread) && apart && !pending.is_full() {
                 let at = CurveParam { segment: top.station.at.segment, t };
                 if !top.clear {
-                    top.clear = self.clear(arc, &at, &length);
+                    top.clear = length <= self.floor || self.clear(arc, &at, &length);
                 }
                 if let Some(foot) = Foot::normal(self.curve, at, side) {
                     let middle = self.station(foot);

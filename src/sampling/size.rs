@@ -7,7 +7,9 @@
 //!
 //! Whether a position lies on a stretch is found by marching along the path in both directions until ε·lfs reaches the
 //! floor or a singular point is met. lfs is 1-Lipschitz, so a step of (floor − ε·lfs)/ε cannot jump over the stretch's end.
-//! The answer is remembered for the interval that was marched through.
+//! What is marched through errs to the small side, by the tolerance of lfs and 2^−10 of the floor, and it does not depend
+//! on the scale that [`super::spread`] tries: a stretch here is part of a true one. The answer is remembered for the
+//! interval that was marched through.
 
 use super::run::{Pos, Run, RunEnd};
 use super::{Condition, SamplingOptions};
@@ -37,6 +39,8 @@ pub struct Sizes<'r, S, F> {
     options: &'r SamplingOptions<S>,
     /// ε·(1 − tolerance), or ρ likewise; `None` without feature condition.
     factor: Option<S>,
+    /// ε·(1 + tolerance), without scale: what is below the floor with this factor is so in truth.
+    certain: S,
     stretch: RefCell<Option<Stretch<S>>>,
 }
 
@@ -49,11 +53,13 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         options: &'r SamplingOptions<S>,
         scale: &S,
     ) -> Self {
-        let factor = match &options.condition {
-            Condition::Epsilon(e) | Condition::Rho(e) => Some((S::one() - &options.tolerance) * e * scale),
-            Condition::Unbounded => None,
+        let (factor, certain) = match &options.condition {
+            Condition::Epsilon(e) | Condition::Rho(e) => {
+                (Some((S::one() - &options.tolerance) * e * scale), (S::one() + &options.tolerance) * e)
+            }
+            Condition::Unbounded => (None, S::one()),
         };
-        Self { run, features, contacts, options, factor, stretch: RefCell::new(None) }
+        Self { run, features, contacts, options, factor, certain, stretch: RefCell::new(None) }
     }
 
     /// ε·(1 − tolerance)·scale.
@@ -87,7 +93,7 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         if reach >= singular {
             return Size { reach, floored: false };
         }
-        let floor = if self.on_stretch(p, factor, &singular) {
+        let floor = if self.on_stretch(p, &singular) {
             singular
         } else {
             self.options.floor.clone() * diagonal
@@ -96,39 +102,41 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         Size { reach: reach.max(floor), floored }
     }
 
-    /// A singular point lies on the stretch around p where factor·lfs is below `floor`.
-    fn on_stretch(&self, p: &Pos<S>, factor: &S, floor: &S) -> bool {
+    /// A singular point lies on the stretch around p where ε·lfs is below `floor`.
+    fn on_stretch(&self, p: &Pos<S>, floor: &S) -> bool {
         if let Some((from, to, singular)) = &*self.stretch.borrow()
             && p >= from
             && p <= to
         {
             return *singular;
         }
-        let (to, after) = self.march(p, factor, floor, true);
-        let (from, before) = self.march(p, factor, floor, false);
+        let (to, after) = self.march(p, floor, true);
+        let (from, before) = self.march(p, floor, false);
         let singular = after || before;
         *self.stretch.borrow_mut() = Some((from, to, singular));
         singular
     }
 
-    /// Marches from p to where factor·lfs reaches the floor. The last position below it, and whether the way met a singular
+    /// Marches from p to where ε·lfs reaches the floor. The last position below it, and whether the way met a singular
     /// point.
-    fn march(&self, p: &Pos<S>, factor: &S, floor: &S, forwards: bool) -> (Pos<S>, bool) {
+    fn march(&self, p: &Pos<S>, floor: &S, forwards: bool) -> (Pos<S>, bool) {
         let run = self.run;
+        let least = floor.clone().mul_pow2(-10);
         let mut here = p.clone();
-        let mut met = self.singular_between(&here, &here);
+        let mut met = false;
         let (stop, ending) =
             if forwards { (&run.end, &run.ends[1]) } else { (&run.start, &run.ends[0]) };
-        // Each step moves by a 64th of the floor at least, or to the end of a segment: the loop ends.
+        // Each step moves by a 1024th of the floor at least, or to the end of a segment: the loop ends.
         loop {
+            let room = floor.clone() - &(self.lfs(&here, &run.point(&here)) * &self.certain);
+            if room <= least {
+                return (here, met);
+            }
+            met |= self.singular_between(&here, &here);
             if here == *stop {
                 return (here, met || *ending == RunEnd::Singular);
             }
-            let reach = self.lfs(&here, &run.point(&here)) * factor;
-            let step = ((floor.clone() - &reach) / factor).max(floor.clone().mul_pow2(-6));
-            if reach >= *floor {
-                return (here, met);
-            }
+            let step = room / &self.certain;
             let next = if forwards { run.advance(&here, &step) } else { self.retreat(&here, &step) };
             let (a, b) = if forwards { (&here, &next) } else { (&next, &here) };
             met |= self.singular_between(a, b);
@@ -151,12 +159,17 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         if to > first && to < here.t { Pos { k: here.k, t: to } } else { Pos { k: here.k, t: first } }
     }
 
-    /// A contact lies between two positions of one segment, ends included.
+    /// A contact lies between two positions of the same or of neighbouring segments, ends included.
     fn singular_between(&self, a: &Pos<S>, b: &Pos<S>) -> bool {
-        let k = b.k;
+        if a.k < b.k {
+            return self.singular_on(a.k, a.t.clone(), S::one()) || self.singular_on(b.k, S::zero(), b.t.clone());
+        }
+        self.singular_on(b.k, a.t.clone(), b.t.clone())
+    }
+
+    /// A contact lies between two parameters of segment k of the run, ends included.
+    fn singular_on(&self, k: u32, from: S, to: S) -> bool {
         let index = self.run.segment_index(k);
-        let from = if a.k < k { S::zero() } else { a.t.clone() };
-        let to = b.t.clone();
         let (index, from, to) = match self.run.curve.segment(index).and_then(|s| s.twin) {
             Some(t) if t.reversed => (t.segment, S::one() - &to, S::one() - &from),
             Some(t) => (t.segment, from, to),

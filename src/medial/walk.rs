@@ -363,10 +363,12 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
             };
             let t = S::midpoint(low, high);
             let apart = t > *low && t < *high;
-            // A short stretch still matters where its medial points lie apart: towards an end of unbounded curvature they
-            // move like the square root of the length.
-            let spread = top.station.radius.is_finite()
+            // Next to an end of unbounded curvature medial points move like the square root of the length: a stretch that is
+            // short still matters there.
+            let tip = here.side == Side::Corner || top.station.side == Side::Corner;
+            let spread = tip
                 && here.radius.is_finite()
+                && top.station.radius.is_finite()
                 && here.centre.distance(&top.station.centre) > self.floor.clone() * &S::int(100);
             if (length > self.floor || spread) && apart && !pending.is_full() {
                 let at = CurveParam { segment: top.station.at.segment, t };

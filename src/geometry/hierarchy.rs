@@ -105,17 +105,17 @@ impl<'a, S: Scalar> Hierarchy<'a, S> {
 
     /// Visits every item whose box passes `enter`, in an order that depends on the tree alone.
     ///
-    /// `enter` sees the box of a node and says whether anything below may matter; `visit` sees an item. Both share `state`,
+    /// `enter` sees the box of a node and says whether anything below may matter; `visit` sees an item and its box. Both share `state`,
     /// so that what a visit finds narrows what is entered later.
     #[inline]
-    pub fn traverse<T>(&self, state: &mut T, enter: impl Fn(&T, &Aabb<S>) -> bool, mut visit: impl FnMut(&mut T, u32)) {
+    pub fn traverse<T>(&self, state: &mut T, enter: impl Fn(&T, &Aabb<S>) -> bool, mut visit: impl FnMut(&mut T, u32, &Aabb<S>)) {
         let mut stack: ArrayVec<u32, MAX_DEPTH> = ArrayVec::new();
         let mut next = if self.nodes.is_empty() { None } else { Some(0_u32) };
         while let Some(i) = next {
             let Some(node) = self.nodes.get(i as usize) else { break };
             if enter(state, &node.bounds) {
                 if node.right == LEAF {
-                    visit(state, node.item);
+                    visit(state, node.item, &node.bounds);
                 } else if stack.try_push(node.right).is_ok() {
                     next = Some(i + 1);
                     continue;

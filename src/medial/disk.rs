@@ -16,6 +16,7 @@ use crate::bezier::newton::falling_zero;
 use crate::curve::{Arc, Curve, CurveParam};
 use crate::geometry::{Aabb, Point};
 use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
 
 /// The largest empty disk tangent to C at a foot point.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,8 +36,8 @@ pub struct Touch<S> {
     pub arc: u32,
 }
 
-/// The state of a search: the largest A/B so far, and the disk that belongs to it.
-struct Search<'f, S> {
+/// The smallest disk so far: the largest A/B, and what belongs to it.
+struct Smallest<'f, S> {
     foot: &'f Foot<S>,
     /// 1/(2r); 0 while nothing bounds the disk.
     bend: S,
@@ -44,26 +45,108 @@ struct Search<'f, S> {
     radius: S,
     radius_sq: S,
     touch: Option<Touch<S>>,
+}
+
+/// The state of a search.
+struct Search<'f, S> {
+    smallest: Smallest<'f, S>,
+    /// The pencil of the segment (and half of it) that was looked at last.
     pencil: Option<(u32, bool, Pencil<S>)>,
 }
 
-/// Finds the largest empty tangent disk at a foot. `hint` is an arc likely to bound it (the one that bounds a neighbour's):
-/// it makes the search faster and does not change the result.
-pub fn tangent_disk<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, hint: Option<u32>) -> TangentDisk<S> {
-    let mut search = Search {
-        foot,
-        bend: S::zero(),
-        centre: foot.point.clone(),
-        radius: S::infinity(),
-        radius_sq: S::infinity(),
-        touch: None,
-        pencil: None,
-    };
-    if let Some(hint) = hint {
+/// What a [`Guard`] remembers of an arc.
+type Guarded<S> = (u32, Aabb<S>);
+
+/// Arcs that a guard can hold; where more meet its disk, it is not used.
+const GUARDED: usize = 24;
+
+/// All arcs that meet a disk a little larger than the last one found.
+///
+/// The disks of neighbouring feet differ little. As long as the next one, bounded by what bounded the last, lies inside the
+/// guard's disk, nothing but the remembered arcs can enter it, and the hierarchy need not be asked. The result is the same.
+#[derive(Debug)]
+pub struct Guard<S> {
+    centre: Point<S>,
+    radius: S,
+    arcs: ArrayVec<Guarded<S>, GUARDED>,
+    /// The arcs are complete.
+    valid: bool,
+    /// The arc that bounded the last disk.
+    hint: Option<u32>,
+}
+
+impl<S: Scalar> Guard<S> {
+    /// A guard that knows nothing yet.
+    pub fn new() -> Self {
+        let zero = S::zero();
+        Self {
+            centre: Point::new(zero.clone(), zero.clone()),
+            radius: zero,
+            arcs: ArrayVec::new(),
+            valid: false,
+            hint: None,
+        }
+    }
+
+    /// The disk lies inside.
+    fn holds(&self, disk: &Smallest<'_, S>) -> bool {
+        self.valid
+            && disk.touch.is_some()
+            && disk.radius < self.radius
+            && disk.centre.distance_sq(&self.centre) <= (self.radius.clone() - &disk.radius).square()
+    }
+
+    /// Remembers the arcs around a disk, a quarter larger than it is.
+    fn renew(&mut self, curve: &Curve<'_, S>, disk: &Smallest<'_, S>) {
+        self.arcs.clear();
+        self.valid = disk.touch.is_some();
+        if !self.valid {
+            return;
+        }
+        self.centre = disk.centre.clone();
+        self.radius = disk.radius.clone() * &S::ratio(5, 4);
+        let reach_sq = self.radius.clone().square();
+        curve.hierarchy().traverse(
+            self,
+            |g, bounds| g.valid && bounds.distance_sq(&g.centre) <= reach_sq,
+            |g, arc, bounds| g.valid &= g.arcs.try_push((arc, bounds.clone())).is_ok(),
+        );
+    }
+}
+
+impl<S: Scalar> Default for Guard<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Finds the largest empty tangent disk at a foot.
+pub fn tangent_disk<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>) -> TangentDisk<S> {
+    let mut search = Search::new(foot);
+    search.all(curve);
+    search.result()
+}
+
+/// [`tangent_disk`] for one of a row of neighbouring feet: the same result, found faster.
+pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guard: &mut Guard<S>) -> TangentDisk<S> {
+    let mut search = Search::new(foot);
+    if let Some(hint) = guard.hint {
         search.visit(curve, hint);
     }
-    curve.hierarchy().traverse(&mut search, |s, bounds| s.meets(bounds, curve.noise), |s, arc| s.visit(curve, arc));
-    TangentDisk { radius: search.radius, touch: search.touch }
+    if guard.holds(&search.smallest) {
+        for (arc, bounds) in &guard.arcs {
+            if guard.hint != Some(*arc) && search.smallest.meets(bounds, curve.noise) {
+                search.visit(curve, *arc);
+            }
+        }
+    } else {
+        search.all(curve);
+        guard.renew(curve, &search.smallest);
+    }
+    if let Some(touch) = &search.smallest.touch {
+        guard.hint = Some(touch.arc);
+    }
+    search.result()
 }
 
 /// What is looked at: an arc through a pencil, to a precision in its parameter.
@@ -74,7 +157,48 @@ struct Span<'p, S> {
     width: S,
 }
 
-impl<S: Scalar> Search<'_, S> {
+impl<'f, S: Scalar> Search<'f, S> {
+    fn new(foot: &'f Foot<S>) -> Self {
+        let smallest = Smallest {
+            foot,
+            bend: S::zero(),
+            centre: foot.point.clone(),
+            radius: S::infinity(),
+            radius_sq: S::infinity(),
+            touch: None,
+        };
+        Self { smallest, pencil: None }
+    }
+
+    /// Looks at all arcs that enter the disk.
+    fn all(&mut self, curve: &Curve<'_, S>) {
+        curve
+            .hierarchy()
+            .traverse(self, |s, bounds| s.smallest.meets(bounds, curve.noise), |s, arc, _| s.visit(curve, arc));
+    }
+
+    fn result(self) -> TangentDisk<S> {
+        TangentDisk { radius: self.smallest.radius, touch: self.smallest.touch }
+    }
+
+    /// Shrinks the disk where the arc enters it.
+    fn visit(&mut self, curve: &Curve<'_, S>, index: u32) {
+        let Some(arc) = curve.arcs.get(index as usize) else { return };
+        let Some(segment) = curve.segment(arc.segment) else { return };
+        let middle = S::midpoint(&arc.span[0], &arc.span[1]);
+        let second_half = middle > S::one().half();
+        let known = matches!(&self.pencil, Some((s, h, _)) if *s == arc.segment && *h == second_half);
+        if !known {
+            let pencil = Pencil::new(curve, self.smallest.foot, arc.segment, segment, &middle);
+            self.pencil = Some((arc.segment, second_half, pencil));
+        }
+        if let Some((_, _, pencil)) = &self.pencil {
+            self.smallest.search_arc(pencil, arc, index);
+        }
+    }
+}
+
+impl<S: Scalar> Smallest<'_, S> {
     /// The box may hold a point inside the current disk.
     #[inline]
     fn meets(&self, bounds: &Aabb<S>, noise: &S) -> bool {
@@ -87,24 +211,6 @@ impl<S: Scalar> Search<'_, S> {
         let x = if d.x >= zero { &bounds.max.x } else { &bounds.min.x };
         let y = if d.y >= zero { &bounds.max.y } else { &bounds.min.y };
         d.dot(&Point::new(x.clone(), y.clone()).minus(&self.foot.point)) > -noise.clone()
-    }
-
-    /// Shrinks the disk where the arc enters it.
-    fn visit(&mut self, curve: &Curve<'_, S>, index: u32) {
-        let Some(arc) = curve.arcs.get(index as usize) else { return };
-        let Some(segment) = curve.segment(arc.segment) else { return };
-        let [from, to] = &arc.span;
-        let half = S::one().half();
-        let middle = S::midpoint(from, to);
-        let second_half = middle > half;
-        let known = matches!(&self.pencil, Some((s, h, _)) if *s == arc.segment && *h == second_half);
-        if !known {
-            let pencil = Pencil::new(curve, self.foot, arc.segment, segment, &middle);
-            self.pencil = Some((arc.segment, second_half, pencil));
-        }
-        let Some((_, _, pencil)) = self.pencil.take() else { return };
-        self.search_arc(&pencil, arc, index);
-        self.pencil = Some((arc.segment, second_half, pencil));
     }
 
     fn search_arc(&mut self, pencil: &Pencil<S>, arc: &Arc<S>, index: u32) {

@@ -10,6 +10,6 @@ pub mod foot;
 mod pencil;
 pub mod walk;
 
-pub use disk::{TangentDisk, tangent_disk};
+pub use disk::{Guard, TangentDisk, tangent_disk, tangent_disk_beside};
 pub use foot::{Foot, Side};
 pub use walk::{MedialPoint, Resolution, walk};

@@ -20,7 +20,7 @@
 //! The tolerance is relative to the radius, because |p − m| ≥ r for every p ∈ C: an error below τ·r is a relative error of
 //! lfs below τ. The criterion is an estimate; what it has proved is tested against truth (`docs/accuracy.md`).
 
-use super::disk::{TangentDisk, tangent_disk};
+use super::disk::{Guard, TangentDisk, tangent_disk, tangent_disk_beside};
 use super::foot::{Foot, Side};
 use crate::buffer::{BufferFull, Store};
 use crate::curve::contact::Contact;
@@ -120,7 +120,7 @@ pub fn relevance<S: Scalar>(curve: &Curve<'_, S>) -> S {
             for t in [S::zero(), S::one().half()] {
                 let at = CurveParam { segment: i, t };
                 if let Some(foot) = Foot::normal(curve, at, side) {
-                    least = least.min(tangent_disk(curve, &foot, None).radius);
+                    least = least.min(tangent_disk(curve, &foot).radius);
                 }
             }
         }
@@ -162,7 +162,7 @@ struct Walker<'w, 'c, S, Out> {
     started: bool,
     /// Whether the last station was emitted by the element before, so that the next element need not repeat it.
     joined: bool,
-    hint: Option<u32>,
+    guard: Guard<S>,
     /// Lengths below this are nothing.
     floor: S,
     out: &'w mut Out,
@@ -179,7 +179,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     ) -> Self {
         let billionth = S::one() / &S::int(1_000_000_000);
         let floor = billionth.max(S::unit_roundoff().mul_pow2(2)) * curve.diagonal;
-        Self { curve, resolution, contacts, relevance, polyline, started: false, joined: false, hint: None, floor, out }
+        Self { curve, resolution, contacts, relevance, polyline, started: false, joined: false, guard: Guard::new(), floor, out }
     }
 
     /// Ends the current polyline.
@@ -209,10 +209,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
 
     /// Looks at a foot.
     fn station(&mut self, foot: Foot<S>) -> Station<S> {
-        let TangentDisk { radius, touch } = tangent_disk(self.curve, &foot, self.hint);
-        if let Some(t) = &touch {
-            self.hint = Some(t.arc);
-        }
+        let TangentDisk { radius, touch } = tangent_disk_beside(self.curve, &foot, &mut self.guard);
         let touch = touch.and_then(|t| self.curve.point(&t.at).map(|p| (t.arc, p)));
         let centre = if radius.is_finite() {
             foot.point.plus_scaled(&radius, &foot.direction)
@@ -511,7 +508,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
                     let split = match self.resolution {
                         Resolution::Steps(n) => {
                             let steps = S::int(i32::try_from((*n).clamp(16, 1 << 20)).unwrap_or(16));
-                            spread * &steps > S::int(4)
+                            spread * &steps > S::int(16)
                         }
                         Resolution::Tolerance(tolerance) => {
                             let narrow = spread <= S::unit_roundoff().mul_pow2(8);

@@ -17,6 +17,7 @@ use crate::curve::contact::Contact;
 use crate::geometry::Point;
 use crate::lfs::FeatureSize;
 use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
 use core::cell::RefCell;
 
 /// A size and where it comes from.
@@ -31,6 +32,34 @@ pub struct Size<S> {
 /// The remembered interval: its ends, and whether a singular point lies on it.
 type Stretch<S> = (Pos<S>, Pos<S>, bool);
 
+/// What was found of a run's stretches: the last few intervals that were marched through. It does not depend on the scale.
+#[derive(Debug)]
+pub struct Stretches<S> {
+    known: RefCell<ArrayVec<Stretch<S>, 32>>,
+}
+
+impl<S> Default for Stretches<S> {
+    fn default() -> Self {
+        Self { known: RefCell::new(ArrayVec::new()) }
+    }
+}
+
+impl<S: Scalar> Stretches<S> {
+    /// Whether a singular point lies on the stretch around p, if that is known.
+    fn recall(&self, p: &Pos<S>) -> Option<bool> {
+        self.known.borrow().iter().find(|(from, to, _)| p >= from && p <= to).map(|s| s.2)
+    }
+
+    /// Remembers an interval, in place of the oldest where there is no room.
+    fn remember(&self, stretch: Stretch<S>) {
+        let mut known = self.known.borrow_mut();
+        if known.is_full() {
+            known.remove(0);
+        }
+        known.push(stretch);
+    }
+}
+
 /// Sizes along one run.
 pub struct Sizes<'r, S, F> {
     run: &'r Run<'r, S>,
@@ -41,7 +70,7 @@ pub struct Sizes<'r, S, F> {
     factor: Option<S>,
     /// ε·(1 + tolerance), without scale: what is below the floor with this factor is so in truth.
     certain: S,
-    stretch: RefCell<Option<Stretch<S>>>,
+    stretches: &'r Stretches<S>,
 }
 
 impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
@@ -52,6 +81,7 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         contacts: &'r [Contact<S>],
         options: &'r SamplingOptions<S>,
         scale: &S,
+        stretches: &'r Stretches<S>,
     ) -> Self {
         let (factor, certain) = match &options.condition {
             Condition::Epsilon(e) | Condition::Rho(e) => {
@@ -59,7 +89,7 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
             }
             Condition::Unbounded => (None, S::one()),
         };
-        Self { run, features, contacts, options, factor, certain, stretch: RefCell::new(None) }
+        Self { run, features, contacts, options, factor, certain, stretches }
     }
 
     /// ε·(1 − tolerance)·scale.
@@ -104,16 +134,13 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
 
     /// A singular point lies on the stretch around p where ε·lfs is below `floor`.
     fn on_stretch(&self, p: &Pos<S>, floor: &S) -> bool {
-        if let Some((from, to, singular)) = &*self.stretch.borrow()
-            && p >= from
-            && p <= to
-        {
-            return *singular;
+        if let Some(singular) = self.stretches.recall(p) {
+            return singular;
         }
         let (to, after) = self.march(p, floor, true);
         let (from, before) = self.march(p, floor, false);
         let singular = after || before;
-        *self.stretch.borrow_mut() = Some((from, to, singular));
+        self.stretches.remember((from, to, singular));
         singular
     }
 

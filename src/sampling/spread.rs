@@ -8,7 +8,7 @@
 //! (n − 1 + share)/n. Trials that need more samples bound it from below.
 
 use super::run::{Pos, Run};
-use super::size::Sizes;
+use super::size::{Sizes, Stretches};
 use super::step::{self, Caps, Next};
 use super::{Bound, Sample, SamplingError, SamplingOptions};
 use crate::buffer::Store;
@@ -42,7 +42,7 @@ pub fn inner_samples<S: Scalar, F: FeatureSize<S>>(
     out: &mut impl Store<Sample<S>>,
 ) -> Result<(), SamplingError> {
     let base = out.items().len();
-    let spreader = Spreader { run, features, contacts, options, cap, base };
+    let spreader = Spreader { run, features, contacts, options, cap, base, stretches: Stretches::default() };
     let first = spreader.trial(&S::one(), out)?;
     if first.gaps > 1 && first.share < S::ratio(63, 64) {
         let gaps = first.gaps;
@@ -88,6 +88,7 @@ struct Spreader<'r, S, F, C> {
     options: &'r SamplingOptions<S>,
     cap: &'r C,
     base: usize,
+    stretches: Stretches<S>,
 }
 
 impl<S: Scalar, F: FeatureSize<S>, C: Fn(&Pos<S>) -> Option<S>> Spreader<'_, S, F, C> {
@@ -95,7 +96,7 @@ impl<S: Scalar, F: FeatureSize<S>, C: Fn(&Pos<S>) -> Option<S>> Spreader<'_, S, 
     fn trial(&self, scale: &S, out: &mut impl Store<Sample<S>>) -> Result<Trial<S>, SamplingError> {
         out.shorten(self.base);
         let run = self.run;
-        let sizes = Sizes::new(run, self.features, self.contacts, self.options, scale);
+        let sizes = Sizes::new(run, self.features, self.contacts, self.options, scale, &self.stretches);
         let chord = self.options.chord_error.as_ref().map(|c| c.clone() * scale * scale);
         let max = self.options.max_distance.as_ref().map(|m| m.clone() * scale);
         let mut here = run.start.clone();

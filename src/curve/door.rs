@@ -576,13 +576,13 @@ impl<S: Scalar> Door<'_, S> {
         for n in 0..order.items().len() {
             let Some(&i) = order.items().get(n) else { break };
             let (Some(e), Some(p)) = (ends(i), segments_point(segments, ends(i))) else { continue };
-            if let Some(leader) = near_earlier_end(segments, order.items(), i, &p, &short, &ends, &cell_of) {
-                if let Some(q) = segments_point(segments, Some(leader)) {
-                    self.note_snap(&p, &q);
-                    if unite(segments, leader, e) {
-                        self.report.joined += 1;
-                        set_end_point(segments, e, q);
-                    }
+            if let Some(leader) = near_earlier_end(segments, order.items(), i, &p, &short, &ends, &cell_of)
+                && let Some(q) = segments_point(segments, Some(leader))
+            {
+                self.note_snap(&p, &q);
+                if unite(segments, leader, e) {
+                    self.report.joined += 1;
+                    set_end_point(segments, e, q);
                 }
             }
         }

@@ -15,7 +15,8 @@ impl EndId {
     /// The end at t = 0 (side 0) or t = 1 (side 1) of a segment.
     #[inline]
     pub const fn new(segment: u32, side: usize) -> Self {
-        Self(segment << 1 | (side as u32 & 1))
+        let side = if side & 1 == 0 { 0 } else { 1 };
+        Self(segment << 1 | side)
     }
 
     /// The segment.

@@ -10,7 +10,7 @@ pub fn project_to_segment<S: Scalar>(p: &Point<S>, a: &Point<S>, b: &Point<S>) -
     let ab = b.minus(a);
     let along = p.minus(a).dot(&ab);
     let length_sq = ab.norm_sq();
-    if !(along > S::zero()) {
+    if along <= S::zero() {
         return (S::zero(), a.clone());
     }
     if along >= length_sq {

@@ -1,0 +1,227 @@
+//! Steps 2 to 4 of the door: from one path of the drawing to segments.
+//!
+//! Short segments are dropped and their neighbours snapped together, paths are closed, straight cubics become lines of
+//! uniform speed, cubics with an exact cusp are split there.
+
+use super::{CurveError, Door, PathInput, index_of};
+use crate::bezier::{Cubic, PowerBasis, critical};
+use crate::buffer::Store;
+use crate::curve::{EndId, JointEnd, JointKind, Path, Segment, Source};
+use crate::geometry::{Point, Vector};
+use crate::scalar::Scalar;
+
+impl<S: Scalar> Door<'_, S> {
+    /// Steps 2 to 4 for one path.
+    pub(super) fn take_path(
+        &mut self,
+        index: u32,
+        input: &PathInput<'_, S>,
+        segments: &mut impl Store<Segment<S>>,
+        paths: &mut impl Store<Path>,
+    ) -> Result<(), CurveError> {
+        let first = segments.items().len();
+        let short = self.short();
+        let path = index_of(paths.items().len());
+        let mut last: Option<Point<S>> = None;
+        for (k, cubic) in input.cubics.iter().enumerate() {
+            let k = index_of(k);
+            if let Some(end) = &last
+                && end.distance(cubic.start()) > short
+            {
+                return Err(CurveError::Disconnected { path: index, segment: k });
+            }
+            if length_of_polygon(cubic) < short {
+                self.report.dropped += 1;
+                // The chain of dropped pieces must not drift: `last` stays where the last kept segment ends, but a run of
+                // them that leads away from it is a gap.
+                if last.is_none() {
+                    last = Some(cubic.start().clone());
+                }
+                continue;
+            }
+            let mut cubic = cubic.clone();
+            if segments.items().len() > first
+                && let Some(end) = &last
+            {
+                self.note_snap(end, cubic.start());
+                cubic.points[0] = end.clone();
+            }
+            last = Some(cubic.end().clone());
+            self.take_cubic(path, k, cubic, segments)?;
+        }
+        let count = segments.items().len() - first;
+        if count == 0 {
+            if !input.cubics.is_empty() {
+                self.report.vanished += 1;
+            }
+            return Ok(());
+        }
+        let closed = self.close(path, input, first, segments)?;
+        let count = index_of(segments.items().len() - first);
+        paths.push(Path { source: index, first: index_of(first), count, closed })?;
+        Ok(())
+    }
+
+    /// Step 3: is the path closed, and with what.
+    fn close(
+        &mut self,
+        path: u32,
+        input: &PathInput<'_, S>,
+        first: usize,
+        segments: &mut impl Store<Segment<S>>,
+    ) -> Result<bool, CurveError> {
+        let Some((start, end)) = segments
+            .items()
+            .get(first)
+            .zip(segments.items().last())
+            .map(|(a, b)| (a.cubic.start().clone(), b.cubic.end().clone()))
+        else {
+            return Ok(false);
+        };
+        if start.distance(&end) <= self.short() {
+            self.note_snap(&start, &end);
+            if let Some(last) = segments.items_mut().last_mut() {
+                last.cubic.points[3] = start;
+            }
+            if !input.closed {
+                self.report.closed += 1;
+            }
+            return Ok(true);
+        }
+        if input.closed {
+            let k = index_of(input.cubics.len());
+            self.take_cubic(path, k, Cubic::line(end, start), segments)?;
+            self.report.closing_lines += 1;
+        }
+        Ok(input.closed)
+    }
+
+    /// Step 4: a straight cubic becomes a line, a cusped one two cubics.
+    fn take_cubic(
+        &mut self,
+        path: u32,
+        source: u32,
+        mut cubic: Cubic<S>,
+        segments: &mut impl Store<Segment<S>>,
+    ) -> Result<(), CurveError> {
+        let whole = Source { segment: source, from: S::zero(), to: S::one(), handles: None };
+        if let Some(handles) = self.straight(&cubic) {
+            let [a, _, _, b] = cubic.points;
+            let third = S::ratio(1, 3);
+            let uniform = (handles[0].clone() - &third).abs().max((handles[1].clone() - &third.twice()).abs())
+                <= S::unit_roundoff().mul_pow2(4);
+            if !uniform {
+                self.report.straightened += 1;
+            }
+            let handles = (!uniform).then_some(handles);
+            return Self::add(path, Source { handles, ..whole }, Cubic::line(a, b), segments);
+        }
+        // Handles that rounding left over point anywhere, and would hook the curve at a scale below every floor.
+        let left_over = self.nothing() * &S::int(100);
+        for (near, far) in [(0, 1), (3, 2)] {
+            if let (Some(a), Some(b)) = (cubic.points.get(near).cloned(), cubic.points.get_mut(far))
+                && a.distance(b) < left_over
+            {
+                *b = a;
+            }
+        }
+        let power = cubic.power_basis();
+        let mut from = S::zero();
+        let mut rest = cubic.clone();
+        for t in critical::slowest(&power) {
+            if !self.is_cusp(&cubic, &power, &t, &from) {
+                continue;
+            }
+            let inner = (t.clone() - &from) / &(S::one() - &from);
+            let (mut left, mut right) = rest.split_at(&inner);
+            // The derivative is nothing at the cusp: make it exactly so.
+            left.points[2] = left.points[3].clone();
+            right.points[1] = right.points[0].clone();
+            Self::add(path, Source { segment: source, from, to: t.clone(), handles: None }, left, segments)?;
+            self.report.cusps += 1;
+            from = t;
+            rest = right;
+        }
+        Self::add(path, Source { segment: source, from, to: S::one(), handles: None }, rest, segments)
+    }
+
+    /// A cusp in the open interval (from, 1): so slow that the circle of curvature is below every floor.
+    fn is_cusp(&self, cubic: &Cubic<S>, power: &PowerBasis<S>, t: &S, from: &S) -> bool {
+        let margin = S::ratio(1, 1000);
+        if *t < from.clone() + &margin || *t > S::one() - &margin {
+            return false;
+        }
+        let speed_sq = power.derivative(t).norm_sq();
+        let acceleration = power.second_derivative(t).norm();
+        let size = length_of_polygon(cubic);
+        acceleration > S::zero() && speed_sq <= self.nothing() * &acceleration.min(size)
+    }
+
+    fn add(
+        path: u32,
+        source: Source<S>,
+        cubic: Cubic<S>,
+        segments: &mut impl Store<Segment<S>>,
+    ) -> Result<(), CurveError> {
+        let index = index_of(segments.items().len());
+        let end = |side: usize| {
+            let (leaving, retracted) = leaving_direction(&cubic, side);
+            JointEnd { kind: JointKind::Open, next: EndId::new(index, side), leaving, retracted }
+        };
+        let segment = Segment {
+            ends: [end(0), end(1)],
+            power: cubic.power_basis(),
+            cubic,
+            path,
+            source,
+            arcs: (0, 0),
+            twin: None,
+            strand: u32::MAX,
+            loop_turn: S::zero(),
+        };
+        Ok(segments.push(segment)?)
+    }
+
+    /// The positions of the inner control points along a straight cubic that does not turn back, in [0, 1].
+    fn straight(&self, cubic: &Cubic<S>) -> Option<[S; 2]> {
+        let [a, b, c, d] = &cubic.points;
+        let chord = d.minus(a);
+        let length_sq = chord.norm_sq();
+        let length = length_sq.clone().sqrt();
+        if length <= self.nothing() {
+            return None;
+        }
+        let (ab, ac) = (b.minus(a), c.minus(a));
+        let off = ab.cross(&chord).abs().max(ac.cross(&chord).abs()) / &length;
+        // Control points that were rounded lie off the line by a few roundoffs of the coordinates.
+        let largest = [a, b, c, d].iter().fold(S::zero(), |m, p| m.max(p.x.clone().abs()).max(p.y.clone().abs()));
+        if off > largest * &S::unit_roundoff().mul_pow2(3) {
+            return None;
+        }
+        let slack = S::unit_roundoff().mul_pow2(4);
+        let alpha = ab.dot(&chord) / &length_sq;
+        let beta = ac.dot(&chord) / &length_sq;
+        let ordered = alpha >= -slack.clone() && beta >= alpha.clone() - &slack && beta <= S::one() + &slack;
+        ordered.then(|| {
+            let alpha = alpha.clamp(S::zero(), S::one());
+            let beta = beta.clamp(alpha.clone(), S::one());
+            [alpha, beta]
+        })
+    }
+}
+
+/// Length of the control polygon: at least the curve's.
+fn length_of_polygon<S: Scalar>(cubic: &Cubic<S>) -> S {
+    let [a, b, c, d] = &cubic.points;
+    a.distance(b) + &b.distance(c) + &c.distance(d)
+}
+
+/// The unit direction in which a cubic leaves an end, and whether its handle there is retracted.
+fn leaving_direction<S: Scalar>(cubic: &Cubic<S>, side: usize) -> (Vector<S>, bool) {
+    let [a, b, c, d] = if side == 0 { cubic.points.clone() } else { cubic.reversed().points };
+    if let Some(u) = b.minus(&a).unit() {
+        return (u, false);
+    }
+    let u = c.minus(&a).unit().or_else(|| d.minus(&a).unit());
+    (u.unwrap_or_else(|| Vector::new(S::one(), S::zero())), true)
+}

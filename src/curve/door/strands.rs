@@ -1,0 +1,75 @@
+//! Step 8 of the door: strands, and the turning along them.
+//!
+//! A strand is a maximal chain of smoothly joined segments, open or a loop. Each arc knows how far the strand has turned
+//! where it starts and ends: that tells which pieces of curve are local to each other, without distances.
+
+use super::index_of;
+use super::joints::end_ref;
+use crate::curve::{Arc, EndId, JointKind, Segment};
+use crate::scalar::Scalar;
+
+/// The strand that follows a segment left through an end: the other end of a smooth joint.
+fn smooth_neighbour<S>(segments: &[Segment<S>], e: EndId) -> Option<EndId> {
+    let end = end_ref(segments, e)?;
+    (end.kind == JointKind::Smooth).then_some(end.next)
+}
+
+/// Step 8: numbers the strands and accumulates turning along them.
+pub(super) fn number<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut [Arc<S>]) {
+    let total = index_of(segments.len());
+    let mut strands = 0;
+    for i in 0..total {
+        if segments.get(i as usize).is_none_or(|s| s.strand != u32::MAX || s.twin.is_some()) {
+            continue;
+        }
+        // Back to where the strand begins, or once around its loop.
+        let mut begin = EndId::new(i, 0);
+        let mut closed = false;
+        for _ in 0..total {
+            let Some(before) = smooth_neighbour(segments, begin) else { break };
+            begin = before.opposite();
+            if begin == EndId::new(i, 0) {
+                closed = true;
+                break;
+            }
+        }
+        let mut turn = S::zero();
+        let mut entry = begin;
+        for _ in 0..total {
+            let k = entry.segment() as usize;
+            let forwards = entry.side() == 0;
+            if let Some(s) = segments.get_mut(k) {
+                s.strand = strands;
+                let (first, count) = s.arcs;
+                let own = arcs.get_mut(first as usize..(first + count) as usize).unwrap_or_default();
+                let pass = |a: &mut Arc<S>, turn: &mut S| {
+                    let after = a.turning(s) + &*turn;
+                    a.turn = if forwards { [turn.clone(), after.clone()] } else { [after.clone(), turn.clone()] };
+                    *turn = after;
+                };
+                if forwards {
+                    own.iter_mut().for_each(|a| pass(a, &mut turn));
+                } else {
+                    own.iter_mut().rev().for_each(|a| pass(a, &mut turn));
+                }
+            }
+            match smooth_neighbour(segments, entry.opposite()) {
+                Some(next) if next != begin => entry = next,
+                _ => break,
+            }
+        }
+        if closed {
+            let mut entry = begin;
+            for _ in 0..total {
+                if let Some(s) = segments.get_mut(entry.segment() as usize) {
+                    s.loop_turn = turn.clone();
+                }
+                match smooth_neighbour(segments, entry.opposite()) {
+                    Some(next) if next != begin => entry = next,
+                    _ => break,
+                }
+            }
+        }
+        strands += 1;
+    }
+}

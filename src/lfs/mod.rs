@@ -2,7 +2,7 @@
 //!
 //! lfs(p) = dist(p, M) for p ∈ C. The medial polylines M' stand for M, and [`LfsIndex`] finds the nearest *edge* of all of
 //! them: lfs is global, the nearest medial point may belong to any path. (The paper takes the nearest vertex and its two
-//! edges, which need not hold the nearest point; [`kd`] offers that for comparison, behind the feature `kiddo`.)
+//! edges, which need not hold the nearest point; `lfs::kd` offers that for comparison, behind the feature `kiddo`.)
 //!
 //! The estimate is exact for M': |lfs'(p) − lfs(p)| is at most the Hausdorff distance of M' and M near p. Like lfs itself
 //! it is 1-Lipschitz. M' may be empty (a lone straight segment): lfs is then infinite.

@@ -1,7 +1,7 @@
 //! The medial axis by polylines (paper, section 3.1).
 //!
 //! A [`foot`] point with a direction carries the largest empty tangent [`disk`]; its centre is a medial point. Walking
-//! around the curve ([`walk`]), on the left of every stroke and back on its other side, around open ends and outer corners
+//! around the curve ([`walk()`]), on the left of every stroke and back on its other side, around open ends and outer corners
 //! by fans, gives medial *polylines*. Both sides of every stroke are kept: the paper keeps the nearer one, which makes lfs
 //! too large (by up to 5 % on its own test curve).
 

@@ -1,6 +1,6 @@
 //! One cubic of the drawing, in powers of its parameter.
 //!
-//! B(t) = p + a₁ t + a₂ t² + a₃ t³. Only evaluation, reversal and the bounds that the search in [`crate::disk`] prunes
+//! B(t) = p + a₁ t + a₂ t² + a₃ t³. Only evaluation, reversal and the bounds that the search in `disk` prunes
 //! with live here; a line has a₂ = a₃ = 0 exactly, so that no rounding gives it a curvature.
 
 use crate::plane::V2;

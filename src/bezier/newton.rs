@@ -1,4 +1,9 @@
-//! Newton's method held in a bracket.
+//! Newton's method held in a bracket, to an absolute width.
+//!
+//! `polynomial::newton::in_bracket` serves another end: it goes on until x has all its digits *relative to x*, which roots
+//! need and parameters of a segment do not (near t = 0 it would go on for digits that nobody sees), and it bisects whenever
+//! a step does not halve the one before. One function for both would need the stop, the fallback and the start as
+//! parameters, and share nothing but the loop.
 
 use crate::scalar::Scalar;
 

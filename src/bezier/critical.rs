@@ -10,7 +10,7 @@
 //! Straight and pointlike cubics make these polynomials vanish *but for rounding*. Coefficients of a cubic carry an
 //! error of about u·M each, M being the largest coordinate; a polynomial all of whose coefficients are below what such
 //! errors produce is taken to be zero, and then there are no critical points. Everything is homogeneous: scaling a curve
-//! by a power of two changes no result (DESIGN: tolerances relative to the cubic's own size).
+//! by a power of two changes no result, since tolerances are relative to the cubic's own size.
 
 use super::PowerBasis;
 use crate::geometry::Vector;

@@ -2,7 +2,7 @@
 //!
 //! Control points describe it ([`Cubic`]); coefficients of powers of t evaluate it ([`PowerBasis`]):
 //! B(t) = a₀ + a₁ t + a₂ t² + a₃ t³ with a₁ = 3(p₁−p₀), a₂ = 3(p₂−2p₁+p₀), a₃ = p₃−3p₂+3p₁−p₀.
-//! Source: paper, Equation 1; DESIGN of the divided differences in [`crate::medial`].
+//! Source: paper, Equation 1. What [`crate::medial`] divides out of differences of them: `docs/mathematics.md`, section 4.
 
 use crate::geometry::{Aabb, Point, Vector};
 use crate::scalar::Scalar;

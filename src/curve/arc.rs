@@ -1,10 +1,11 @@
 //! Arcs: pieces of a cubic with monotone curvature and little turning, the leaves of the hierarchy.
 //!
 //! A cubic is cut at its inflections and at the extrema of its curvature, and then until no piece turns by more than 30°.
-//! On such a *spiral arc* the search for the point that bounds a tangent disk has one local optimum inside at most:
-//! inversion in the foot point turns the family of tangent disks into parallel half-planes and keeps vertices (extrema of
-//! curvature are a notion of circle geometry), so the arc's image is again a spiral, on which a linear function has at most
-//! one maximum inside unless the image turns by more than a full circle. See `docs/mathematics.md`.
+//! Inversion in a foot point turns the family of its tangent disks into parallel half-planes and keeps vertices (extrema of
+//! curvature are a notion of circle geometry), so the image of such a *spiral arc* is again a spiral. On it a linear function
+//! has at most one maximum inside if the image turns by less than half a turn; this is proved for arcs seen from at least
+//! their own chord's length away. For nearer arcs it is not, and the search splits them where they are nearest and looks
+//! twice ([`crate::medial::disk`]; `docs/mathematics.md`, section 5).
 
 use super::Segment;
 use crate::bezier::critical;

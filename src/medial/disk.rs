@@ -1,12 +1,12 @@
-//! The largest empty tangent disk at a foot point (paper, sections 3.1 and 7.1; DESIGN fact 1).
+//! The largest empty tangent disk at a foot point (paper, sections 3.1 and 7.1; `docs/mathematics.md`, sections 2 and 3).
 //!
 //! r(f, d) = inf over q ∈ C with d·(q−f) > 0 of |q−f|² / (2 d·(q−f)). The disks tangent at f in direction d are nested, so
 //! shrinking never admits a point that was excluded: one traversal of the arc hierarchy, entering a box only if it meets the
 //! current disk and shrinking at each arc that enters it, finds the infimum. The paper restarts a closest-point search over
 //! all segments after each shrinking instead. A disk that nothing bounds is a half-plane: it has no medial point.
 //!
-//! On one arc the quotient A/B of [`super::pencil`] is looked at in both ends, and where its slope changes from rising to
-//! falling the maximum between is found by bracketed Newton (arcs have one at most, see [`crate::curve::arc`]). The result
+//! On one arc the quotient A/B of `medial::pencil` is looked at in both ends, and where its slope changes from rising to
+//! falling the maximum between is found by bracketed Newton (for how many there can be see [`crate::curve::arc`]). The result
 //! is exact to a few roundoffs times the condition of the quotient; it errs to a radius that is too large, by the noise of
 //! the coordinates, only where a plain difference was the best form at hand.
 

@@ -9,9 +9,9 @@
 //! Along a segment q(t), A and the vector q−f are polynomials. Where q comes near f, both A and B vanish and the quotient of
 //! the plain differences is noise, so three forms are used:
 //!
-//! * **same segment** (DESIGN fact 4): with B(t) = a₀ + a₁t + a₂t² + a₃t³, everything is divided by (t−s)²:
-//!   Δ = a₁ + a₂(s+t) + a₃(s²+st+t²), A = d·left⁻¹… = E(t)/|B'(s)|, E = N(s)·(a₂ + a₃(2s+t)), N = left(B'(s)). As t → s
-//!   this is half the curvature;
+//! * **same segment**: the segment is a₀ + a₁t + a₂t² + a₃t³ and f its point at s. With q−f = (t−s)Δ and the unit normal d at
+//!   s, (t−s)² is a factor of both and is left out: Δ = a₁ + a₂(s+t) + a₃(s²+st+t²), A = d·(a₂ + a₃(2s+t)), B = |Δ|². As
+//!   t → s, 2A/B is the curvature;
 //! * **across a joint** e: with u = s−e on f's segment F and v = t−e' on q's segment Q,
 //!   q−f = v b₁ + v² b₂ + v³ b₃ − u D_F and, if the joint is smooth,
 //!   N(s)·(q−f) = u² E_F(s,e) + u v M×D_Q ± μ v² N_Q·(b₂ + v b₃): each term is small by itself, none is a difference of
@@ -22,8 +22,7 @@
 //! From A the noise of the coordinates is subtracted, so that rounding never makes a disk collapse, nor bends a straight
 //! line.
 //!
-//! Sources: DESIGN section 3, fact 4; divided differences across joints, specification of certificates, section
-//! "Formulation that worked", 5.
+//! Derivations: `docs/mathematics.md`, section 4; section 6 for joints where the curvature jumps.
 
 use super::foot::{Foot, Side};
 use crate::bezier::newton::falling_zero;

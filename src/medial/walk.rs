@@ -12,9 +12,9 @@
 //!
 //! * a piece of curve that is not local to it comes nearer than h: anything the cell could have missed touches its disks
 //!   within that reach, so features are found at every scale;
-//! * the disks of its ends are bounded by different features and their centres differ by more than the tolerance (a branch
-//!   point lies between);
-//! * the middle medial point lies off the chord by more than the tolerance;
+//! * the disks of its ends or middle are bounded by different features and their centres differ by more than 2τr (a branch
+//!   point lies between), τ being the tolerance and r the smallest radius;
+//! * the middle medial point lies off the chord of the other two by more than 2τr, or that chord is longer than r/2;
 //!
 //! and the cell still matters: h is above the floor of all lengths, and its radii are not above every lfs of the drawing.
 //! The tolerance is relative to the radius, because |p − m| ≥ r for every p ∈ C: an error below τ·r is a relative error of

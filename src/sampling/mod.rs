@@ -8,7 +8,7 @@
 //! * [`run`]: the stretches between points that must be samples (path ends, corners), as one coordinate;
 //! * [`size`]: how far a sample may serve, from lfs and the floors;
 //! * [`step`]: the next sample; [`chord`]: chord error; [`rho`]: ρ-sampling;
-//! * [`spread`]: a run's samples, evenly spread: the smallest ε' ≤ ε that needs as many;
+//! * [`spread`]: a run's samples, evenly spread: a smaller ε' that needs as many, by a few trials;
 //! * [`grading`]: ratio of neighbouring gaps; [`sampler`]: whole paths.
 //!
 //! **Precedence.** Path ends and corners are always samples; then d_min holds; then the upper bounds (ε, chord error, d_max,

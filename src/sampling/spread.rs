@@ -1,11 +1,12 @@
 //! A run's samples, evenly spread.
 //!
-//! Greedy sampling leaves whatever is left for the last gap, often a sliver. The smallest ε' ≤ ε that needs as many samples
-//! spreads the slack over all gaps: the count is the same, every bound still holds (each is scaled down together, lengths
-//! by the scale, chord error by its square), and no two neighbours sit needlessly close at a seam, an end or a corner.
+//! Greedy sampling leaves whatever is left for the last gap, often a sliver. An ε' ≤ ε near the smallest that needs as many
+//! samples spreads the slack over all gaps: the count is the same, every bound still holds (each is scaled down together,
+//! lengths by the scale, chord error by its square), and no two neighbours sit needlessly close at a seam, an end or a corner.
 //!
-//! The scale is found by a few trials: a run of n gaps whose last one is a share of a full one suggests the scale
-//! (n − 1 + share)/n. Trials that need more samples bound it from below.
+//! The scale is found by at most six trials: a run of n gaps whose last one is a share of a full one suggests the scale
+//! (n − 1 + share)/n. Trials that need more samples bound it from below. They stop when the last gap is at least 63/64 of
+//! the one before it; the smallest ε' itself is not looked for (`docs/mathematics.md`, section 11).
 
 use super::run::{Pos, Run};
 use super::size::{Sizes, Stretches};

@@ -99,10 +99,11 @@ fn by_features<S: Scalar, F: FeatureSize<S>>(
         return Next { pos: run.end.clone(), bound: Bound::End };
     };
     let centre = run.point(&x);
-    let mut y = if crosses_once(factor) {
+    let mut y = if crosses_once(factor) && !floored {
         leaves(run, &x, &centre, &reach, &run.end)
     } else {
-        // The stretch between x and y must be looked at, and that needs some room at x.
+        // For large ε, and where floors let bends be sharper than the size, the stretch between x and y must be looked at,
+        // and that needs some room at x.
         let room = reach.clone() * &(S::one() - &coarse_precision::<S>().twice());
         let y = leaves(run, &x, &centre, &room, &run.end);
         checked(run, sizes, factor, &x, y)
@@ -118,7 +119,7 @@ fn by_features<S: Scalar, F: FeatureSize<S>>(
 /// the whole rest of the run.
 ///
 /// |p − s| − size(p) grows by at most (1 + ε) per length, so a march by −(…)/(1 + ε) cannot jump over the first zero. For
-/// ε below 2/√5 every zero is crossed upwards: there is one at most, and the march may try longer steps.
+/// ε below 2/√5 every zero is crossed upwards, away from floors: there is one at most, and the march may try longer steps.
 fn covered<S: Scalar, F: FeatureSize<S>>(
     run: &Run<'_, S>,
     sizes: &Sizes<'_, S, F>,
@@ -132,8 +133,6 @@ fn covered<S: Scalar, F: FeatureSize<S>>(
         let e = if size.reach.is_finite() { point.distance(here) - &size.reach } else { -S::infinity() };
         (e, size)
     };
-    let unique = crosses_once(factor);
-    let width = if unique { precision::<S>() } else { coarse_precision() };
     let slope = S::one() + factor;
     let mut inner = s.clone();
     let (mut lack, mut size) = excess(&inner);
@@ -146,6 +145,9 @@ fn covered<S: Scalar, F: FeatureSize<S>>(
         if inner >= run.end {
             return None;
         }
+        // Where a floor holds, bends may be sharper than the size: the condition can have any number of zeros.
+        let unique = crosses_once(factor) && !size.floored;
+        let width = if unique { precision::<S>() } else { coarse_precision() };
         let left = -lack.clone();
         if left <= size.reach.clone() * &width {
             break;
@@ -156,19 +158,25 @@ fn covered<S: Scalar, F: FeatureSize<S>>(
         loop {
             let p = run.advance(&inner, &step);
             let (e, at) = excess(&p);
-            if e < S::zero() {
+            if e < S::zero() && (step <= safe || !at.floored) {
                 inner = p;
                 lack = e;
                 size = at;
                 break;
             }
-            if step <= safe || step <= at.reach.clone() * &width {
-                // Beyond it by rounding only.
+            if e < S::zero() {
+                // A long step must not lead on to a floor.
+                step = safe.clone();
+                continue;
+            }
+            if step <= at.reach * &width {
                 return Some((inner, size.reach, size.floored));
             }
-            // Between the two: secant, but never less than the safe step.
+            // Between the two by the secant, a little less. The safe step is safe up to rounding: where the size falls as fast
+            // as it can, the zero lies at its very end.
             let secant = step.clone() * &lack / &(lack.clone() - &e);
-            step = if secant < safe { safe.clone() } else { secant * &S::ratio(63, 64) }.max(safe.clone());
+            let least = if step > safe { safe.clone() } else { step.half() };
+            step = secant.max(least) * &S::ratio(1023, 1024);
         }
     }
     Some((inner, size.reach, size.floored))

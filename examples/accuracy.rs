@@ -225,7 +225,7 @@ fn against_truth(folder: &Path) -> Result<()> {
                 let error = medial.lfs(&p) / row.lfs - 1.0;
                 (over, under) = (over.max(error), under.max(-error));
                 for (side, known) in [Side::Left, Side::Right].into_iter().zip(row.radii) {
-                    let found = Foot::normal(&curve, at, side).map(|f| tangent_disk(&curve, &f, None).radius);
+                    let found = Foot::normal(&curve, at, side).map(|f| tangent_disk(&curve, &f).radius);
                     // Beyond the diagonal radii are of no use to lfs.
                     if let Some(found) = found.filter(|_| known < *model.diagonal()) {
                         radii = radii.max((found / known - 1.0).abs());

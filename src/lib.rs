@@ -60,7 +60,10 @@
 //! | [`medial`] | [foot points](medial::foot), [tangent disks](medial::disk), [medial polylines](medial::walk()) | 3.1, 7.1 |
 //! | [`lfs`] | distance to the medial polylines | 3.2 |
 //! | [`sampling`] | ε-samples and ρ-samples, d_min, d_max, chord error, grading | 3.3, 5.2, 6 |
-#![cfg_attr(feature = "alloc", doc = "| [`model`] | the whole chain in vectors: a thin owner without an algorithm of its own | |")]
+#![cfg_attr(
+    feature = "alloc",
+    doc = "| [`model`] | the whole chain in vectors: a thin owner without an algorithm of its own | |"
+)]
 //!
 //! # Memory
 //! Nothing is allocated. What mathematics bounds comes in an `ArrayVec`; everything else is written into a

@@ -15,8 +15,7 @@ use crate::sampling::{self, Sample, SamplingError, SamplingOptions};
 use crate::scalar::Scalar;
 use alloc::vec::Vec;
 
-type Buffers<S> =
-    CurveBuffers<Vec<Segment<S>>, Vec<Path>, Vec<Arc<S>>, Vec<Node<S>>, Vec<Item<S>>, Vec<u32>>;
+type Buffers<S> = CurveBuffers<Vec<Segment<S>>, Vec<Path>, Vec<Arc<S>>, Vec<Node<S>>, Vec<Item<S>>, Vec<u32>>;
 
 /// A curve C in vectors.
 #[derive(Debug)]

@@ -39,11 +39,7 @@ pub fn reach<S: Scalar>(curve: &Curve<'_, S>) -> S {
 ///
 /// # Errors
 /// [`BufferFull`] where `out` cannot take more.
-pub fn find<S: Scalar>(
-    curve: &Curve<'_, S>,
-    segment: u32,
-    out: &mut impl Store<Contact<S>>,
-) -> Result<(), BufferFull> {
+pub fn find<S: Scalar>(curve: &Curve<'_, S>, segment: u32, out: &mut impl Store<Contact<S>>) -> Result<(), BufferFull> {
     let Some(s) = curve.segment(segment) else { return Ok(()) };
     let finder = Finder { curve, reach: reach(curve), coarse: curve.diagonal.clone() / &S::int(100_000) };
     let first = out.items().len();
@@ -120,13 +116,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
     }
 
     /// Adds a contact, or grows the last one that it continues.
-    fn add(
-        index: u32,
-        from: &S,
-        to: &S,
-        first: usize,
-        out: &mut impl Store<Contact<S>>,
-    ) -> Result<(), BufferFull> {
+    fn add(index: u32, from: &S, to: &S, first: usize, out: &mut impl Store<Contact<S>>) -> Result<(), BufferFull> {
         if out.items().len() > first
             && let Some(last) = out.items_mut().last_mut()
             && last.segment == index

@@ -76,11 +76,7 @@ pub(crate) fn clockwise_rank<S: Scalar>(reference: &Vector<S>, direction: &Vecto
     let dot = reference.dot(direction);
     let cross = direction.cross(reference);
     // cross > 0: less than half a turn clockwise, where 1 − dot grows from 0 to 2.
-    if cross > S::zero() || (cross.is_zero() && dot < S::zero()) {
-        S::one() - &dot
-    } else {
-        S::int(3) + &dot
-    }
+    if cross > S::zero() || (cross.is_zero() && dot < S::zero()) { S::one() - &dot } else { S::int(3) + &dot }
 }
 
 #[cfg(test)]

@@ -232,6 +232,8 @@ impl<S: Scalar> Segment<S> {
         if n > S::zero() && n.is_finite() {
             return Vector::new(d.x / &n, d.y / &n);
         }
-        d.unit().or_else(|| self.cubic.end().minus(self.cubic.start()).unit()).unwrap_or_else(|| self.end(0).leaving.clone())
+        d.unit()
+            .or_else(|| self.cubic.end().minus(self.cubic.start()).unit())
+            .unwrap_or_else(|| self.end(0).leaving.clone())
     }
 }

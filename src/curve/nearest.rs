@@ -104,16 +104,21 @@ fn nearest_where<S: Scalar>(
     admit: impl Fn(&Segment<S>, &Arc<S>) -> bool,
 ) -> Option<NearPoint<S>> {
     let mut state: (S, Option<NearPoint<S>>) = (limit_sq, None);
-    curve.hierarchy().nearest_first(p, &mut state, |s| s.0.clone(), |(bound, best), item| {
-        let Some(arc) = curve.arcs.get(item as usize) else { return };
-        let Some(segment) = curve.segment(arc.segment) else { return };
-        if admit(segment, arc) {
-            let near = nearest_on_arc(segment, arc, p);
-            if near.distance_sq < *bound {
-                *bound = near.distance_sq.clone();
-                *best = Some(near);
+    curve.hierarchy().nearest_first(
+        p,
+        &mut state,
+        |s| s.0.clone(),
+        |(bound, best), item| {
+            let Some(arc) = curve.arcs.get(item as usize) else { return };
+            let Some(segment) = curve.segment(arc.segment) else { return };
+            if admit(segment, arc) {
+                let near = nearest_on_arc(segment, arc, p);
+                if near.distance_sq < *bound {
+                    *bound = near.distance_sq.clone();
+                    *best = Some(near);
+                }
             }
-        }
-    });
+        },
+    );
     state.1
 }

@@ -103,12 +103,18 @@ impl<'a, S: Scalar> Hierarchy<'a, S> {
         Self { nodes }
     }
 
-    /// Visits every item whose box passes `enter`, in an order that depends on the tree alone.
+    /// Visits every item whose box passes `enter`; of two children the one nearer to `towards` first.
     ///
-    /// `enter` sees the box of a node and says whether anything below may matter; `visit` sees an item and its box. Both share `state`,
-    /// so that what a visit finds narrows what is entered later.
+    /// `enter` sees the box of a node and says whether anything below may matter; `visit` sees an item and its box. Both
+    /// share `state`, so that what a visit finds narrows what is entered later: the sooner the nearer.
     #[inline]
-    pub fn traverse<T>(&self, state: &mut T, enter: impl Fn(&T, &Aabb<S>) -> bool, mut visit: impl FnMut(&mut T, u32, &Aabb<S>)) {
+    pub fn traverse<T>(
+        &self,
+        towards: &Point<S>,
+        state: &mut T,
+        enter: impl Fn(&T, &Aabb<S>) -> bool,
+        mut visit: impl FnMut(&mut T, u32, &Aabb<S>),
+    ) {
         let mut stack: ArrayVec<u32, MAX_DEPTH> = ArrayVec::new();
         let mut next = if self.nodes.is_empty() { None } else { Some(0_u32) };
         while let Some(i) = next {
@@ -116,9 +122,14 @@ impl<'a, S: Scalar> Hierarchy<'a, S> {
             if enter(state, &node.bounds) {
                 if node.right == LEAF {
                     visit(state, node.item, &node.bounds);
-                } else if stack.try_push(node.right).is_ok() {
-                    next = Some(i + 1);
-                    continue;
+                } else {
+                    let (left, right) = (i + 1, node.right);
+                    let distance = |k: u32| self.nodes.get(k as usize).map(|n| n.bounds.distance_sq(towards));
+                    let (near, far) = if distance(right) < distance(left) { (right, left) } else { (left, right) };
+                    if stack.try_push(far).is_ok() {
+                        next = Some(near);
+                        continue;
+                    }
                 }
             }
             next = stack.pop();

@@ -107,6 +107,7 @@ impl<S: Scalar> Guard<S> {
         self.radius = disk.radius.clone() * &S::ratio(5, 4);
         let reach_sq = self.radius.clone().square();
         curve.hierarchy().traverse(
+            &disk.centre,
             self,
             |g, bounds| g.valid && bounds.distance_sq(&g.centre) <= reach_sq,
             |g, arc, bounds| g.valid &= g.arcs.try_push((arc, bounds.clone())).is_ok(),
@@ -172,9 +173,13 @@ impl<'f, S: Scalar> Search<'f, S> {
 
     /// Looks at all arcs that enter the disk.
     fn all(&mut self, curve: &Curve<'_, S>) {
-        curve
-            .hierarchy()
-            .traverse(self, |s, bounds| s.smallest.meets(bounds, curve.noise), |s, arc, _| s.visit(curve, arc));
+        let foot = self.smallest.foot;
+        curve.hierarchy().traverse(
+            &foot.point,
+            self,
+            |s, bounds| s.smallest.meets(bounds, curve.noise),
+            |s, arc, _| s.visit(curve, arc),
+        );
     }
 
     fn result(self) -> TangentDisk<S> {
@@ -328,7 +333,6 @@ impl<S: Scalar> Smallest<'_, S> {
         self.radius_sq = radius.clone().square();
         self.bend = if touching { S::infinity() } else { e.a.clone() / &e.b };
         self.radius = radius;
-        self.touch =
-            Some(Touch { at: CurveParam { segment: span.arc.segment, t: t.clone() }, arc: span.index });
+        self.touch = Some(Touch { at: CurveParam { segment: span.arc.segment, t: t.clone() }, arc: span.index });
     }
 }

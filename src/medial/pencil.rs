@@ -158,7 +158,13 @@ impl<S: Scalar> Pencil<S> {
         let a0 = u.clone().square() * &e_f;
         let speed_q = b1.norm();
         if !smooth || foot.speed <= S::zero() || speed_q <= S::zero() {
-            return Self { a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)], delta: [delta0, b1, b2, b3], shift, offset: u.abs(), touching: S::zero() };
+            return Self {
+                a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)],
+                delta: [delta0, b1, b2, b3],
+                shift,
+                offset: u.abs(),
+                touching: S::zero(),
+            };
         }
         // d·(q−e) with d written as the turned tangent at the joint plus what F's tangent turns on its way from there.
         // Everything is relative to |N(s)| = speed; sigma is the side that d is on.

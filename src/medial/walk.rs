@@ -179,7 +179,18 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     ) -> Self {
         let billionth = S::one() / &S::int(1_000_000_000);
         let floor = billionth.max(S::unit_roundoff().mul_pow2(2)) * curve.diagonal;
-        Self { curve, resolution, contacts, relevance, polyline, started: false, joined: false, guard: Guard::new(), floor, out }
+        Self {
+            curve,
+            resolution,
+            contacts,
+            relevance,
+            polyline,
+            started: false,
+            joined: false,
+            guard: Guard::new(),
+            floor,
+            out,
+        }
     }
 
     /// Ends the current polyline.
@@ -211,11 +222,8 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     fn station(&mut self, foot: Foot<S>) -> Station<S> {
         let TangentDisk { radius, touch } = tangent_disk_beside(self.curve, &foot, &mut self.guard);
         let touch = touch.and_then(|t| self.curve.point(&t.at).map(|p| (t.arc, p)));
-        let centre = if radius.is_finite() {
-            foot.point.plus_scaled(&radius, &foot.direction)
-        } else {
-            foot.point.clone()
-        };
+        let centre =
+            if radius.is_finite() { foot.point.plus_scaled(&radius, &foot.direction) } else { foot.point.clone() };
         Station { at: foot.at, foot: foot.point, direction: foot.direction, side: foot.side, radius, centre, touch }
     }
 
@@ -287,8 +295,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     fn contacts_in(&self, segment: u32, arc: &Arc<S>) -> &'w [Contact<S>] {
         let [from, to] = &arc.span;
         let contacts = self.contacts;
-        let low = contacts
-            .partition_point(|c| c.segment < segment || (c.segment == segment && c.middle() <= *from));
+        let low = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.middle() <= *from));
         let high = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.middle() < *to));
         contacts.get(low..high).unwrap_or_default()
     }

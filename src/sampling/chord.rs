@@ -82,12 +82,7 @@ fn stationary<S: Scalar>(power: &PowerBasis<S>, d: &Vector<S>) -> [Option<S>; 2]
 }
 
 /// Inner parameters where the distance from a point is extremal.
-fn farthest<S: Scalar>(
-    power: &PowerBasis<S>,
-    p: &Point<S>,
-    t0: &S,
-    t1: &S,
-) -> impl Iterator<Item = S> + use<S> {
+fn farthest<S: Scalar>(power: &PowerBasis<S>, p: &Point<S>, t0: &S, t1: &S) -> impl Iterator<Item = S> + use<S> {
     let [a1, a2, a3] = &power.a;
     let a0 = power.origin.minus(p);
     let (two, three) = (S::int(2), S::int(3));

@@ -15,11 +15,7 @@ use arrayvec::ArrayVec;
 
 /// The farthest position y such that the stretch from s to y fulfils the condition (inner end of a bracket), and whether a
 /// floor took part.
-pub fn next<S: Scalar, F: FeatureSize<S>>(
-    run: &Run<'_, S>,
-    sizes: &Sizes<'_, S, F>,
-    s: &Pos<S>,
-) -> (Pos<S>, bool) {
+pub fn next<S: Scalar, F: FeatureSize<S>>(run: &Run<'_, S>, sizes: &Sizes<'_, S, F>, s: &Pos<S>) -> (Pos<S>, bool) {
     let here = run.point(s);
     let first = sizes.at(s, &here);
     if !first.reach.is_finite() {

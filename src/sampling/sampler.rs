@@ -45,7 +45,13 @@ pub fn sample_path<S: Scalar, F: FeatureSize<S>>(
         scratch.shorten(0);
         let n = samples.len();
         for i in 0..n {
-            let next = if i + 1 < n { i + 1 } else if p.closed { 0 } else { i.saturating_sub(1) };
+            let next = if i + 1 < n {
+                i + 1
+            } else if p.closed {
+                0
+            } else {
+                i.saturating_sub(1)
+            };
             let (Some(a), Some(b)) = (samples.get(i), samples.get(next)) else { continue };
             scratch.push(GapLimit {
                 point: a.point.clone(),
@@ -174,13 +180,7 @@ impl<S: Scalar, F: FeatureSize<S>> Sampler<'_, '_, S, F> {
     }
 
     /// A sample at an end of a segment.
-    fn fixed(
-        &self,
-        k: u32,
-        side: usize,
-        bound: Bound,
-        out: &mut impl Store<Sample<S>>,
-    ) -> Result<(), SamplingError> {
+    fn fixed(&self, k: u32, side: usize, bound: Bound, out: &mut impl Store<Sample<S>>) -> Result<(), SamplingError> {
         let t = if side == 0 { S::zero() } else { S::one() };
         self.push(CurveParam { segment: self.path.first + k, t }, bound, out)
     }

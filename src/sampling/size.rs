@@ -71,6 +71,8 @@ pub struct Sizes<'r, S, F> {
     /// ε·(1 + tolerance), without scale: what is below the floor with this factor is so in truth.
     certain: S,
     stretches: &'r Stretches<S>,
+    /// The last point looked at, and its lfs: a bound for the next.
+    last: RefCell<Option<(Point<S>, S)>>,
 }
 
 impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
@@ -89,7 +91,7 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
             }
             Condition::Unbounded => (None, S::one()),
         };
-        Self { run, features, contacts, options, factor, certain, stretches }
+        Self { run, features, contacts, options, factor, certain, stretches, last: RefCell::new(None) }
     }
 
     /// ε·(1 − tolerance)·scale.
@@ -99,7 +101,14 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
 
     /// lfs as given.
     pub fn lfs(&self, p: &Pos<S>, point: &Point<S>) -> S {
-        self.features.lfs(&self.run.place(p), point)
+        let place = self.run.place(p);
+        let mut last = self.last.borrow_mut();
+        let lfs = match &*last {
+            Some((q, lfs)) => self.features.lfs_below(&place, point, &(q.distance(point) + lfs)),
+            None => self.features.lfs(&place, point),
+        };
+        *last = Some((point.clone(), lfs.clone()));
+        lfs
     }
 
     /// The size at a position of the run, whose point is known.
@@ -123,11 +132,7 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         if reach >= singular {
             return Size { reach, floored: false };
         }
-        let floor = if self.on_stretch(p, &singular) {
-            singular
-        } else {
-            self.options.floor.clone() * diagonal
-        };
+        let floor = if self.on_stretch(p, &singular) { singular } else { self.options.floor.clone() * diagonal };
         let floored = reach < floor;
         Size { reach: reach.max(floor), floored }
     }
@@ -151,8 +156,7 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         let least = floor.clone().mul_pow2(-10);
         let mut here = p.clone();
         let mut met = false;
-        let (stop, ending) =
-            if forwards { (&run.end, &run.ends[1]) } else { (&run.start, &run.ends[0]) };
+        let (stop, ending) = if forwards { (&run.end, &run.ends[1]) } else { (&run.start, &run.ends[0]) };
         // Each step moves by a 1024th of the floor at least, or to the end of a segment: the loop ends.
         loop {
             let room = floor.clone() - &(self.lfs(&here, &run.point(&here)) * &self.certain);

@@ -5,7 +5,7 @@
 //! lengths by the scale, chord error by its square), and no two neighbours sit needlessly close at a seam, an end or a corner.
 //!
 //! The scale is found by at most six trials: a run of n gaps whose last one is a share of a full one suggests the scale
-//! (n − 1 + share)/n. Trials that need more samples bound it from below. They stop when the last gap is at least 63/64 of
+//! (n − 1 + share)/n. Trials that need more samples bound it from below. They stop when the last gap is at least 15/16 of
 //! the one before it; the smallest ε' itself is not looked for (`docs/mathematics.md`, section 11).
 
 use super::run::{Pos, Run};
@@ -45,7 +45,7 @@ pub fn inner_samples<S: Scalar, F: FeatureSize<S>>(
     let base = out.items().len();
     let spreader = Spreader { run, features, contacts, options, cap, base, stretches: Stretches::default() };
     let first = spreader.trial(&S::one(), out)?;
-    if first.gaps > 1 && first.share < S::ratio(63, 64) {
+    if first.gaps > 1 && first.share < S::ratio(15, 16) {
         let gaps = first.gaps;
         let target = |share: &S, gaps: u32| {
             let n = S::int(i32::try_from(gaps).unwrap_or(i32::MAX));
@@ -61,7 +61,7 @@ pub fn inner_samples<S: Scalar, F: FeatureSize<S>>(
             last = guess.clone();
             if trial.gaps <= gaps {
                 high = guess.clone();
-                if trial.share >= S::ratio(63, 64) {
+                if trial.share >= S::ratio(15, 16) {
                     break;
                 }
                 guess = guess * &target(&trial.share, gaps);
@@ -113,13 +113,7 @@ impl<S: Scalar, F: FeatureSize<S>, C: Fn(&Pos<S>) -> Option<S>> Spreader<'_, S, 
                 let share = if before > gap && before.is_finite() { gap / &before } else { S::one() };
                 return Ok(Trial { gaps, share });
             }
-            out.push(Sample {
-                path: run.index,
-                at: run.place(&pos),
-                point: there.clone(),
-                lfs: S::infinity(),
-                bound,
-            })?;
+            out.push(Sample { path: run.index, at: run.place(&pos), point: there.clone(), lfs: S::infinity(), bound })?;
             before = gap;
             here = pos;
             point = there;

@@ -284,11 +284,8 @@ fn by_chord<S: Scalar>(run: &Run<'_, S>, s: &Pos<S>, stop: &Pos<S>, allowed: &S)
         let scaled = if e > S::zero() { at * &(allowed.clone() / &e).sqrt() } else { hi.clone() };
         let scaled = scaled * &S::ratio(9999, 10_000);
         let margin = (hi.clone() - &lo).mul_pow2(-5);
-        guess = if scaled > lo.clone() + &margin && scaled < hi.clone() - &margin {
-            scaled
-        } else {
-            S::midpoint(&lo, &hi)
-        };
+        guess =
+            if scaled > lo.clone() + &margin && scaled < hi.clone() - &margin { scaled } else { S::midpoint(&lo, &hi) };
     }
     if good <= *s { run.advance(s, &allowed) } else { good }
 }

@@ -13,7 +13,10 @@ use feature_sampling::sampling::SamplingOptions;
 use std::hint::black_box;
 use std::path::PathBuf;
 
-fn drawings() -> Vec<(String, Vec<(bool, Vec<Cubic<f64>>)>)> {
+/// A path: whether it is closed, and its cubics.
+type Stroke = (bool, Vec<Cubic<f64>>);
+
+fn drawings() -> Vec<(String, Vec<Stroke>)> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let mut files = vec![root.join("drawings/celtic_triskell_01.svg")];
     if let Some(extra) = std::env::var_os("FSAMPLE_DATA") {

@@ -233,9 +233,9 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         let segment = self.curve.segment(at.segment)?;
         let end = usize::from(at.t > S::zero());
         if (at.t <= S::zero() || at.t >= S::one()) && segment.end(end).retracted {
-            let near = S::one().mul_pow2(-10);
-            let inside = if end == 0 { near } else { S::one() - &near };
-            let bend = segment.power.derivative(&inside).cross(&segment.power.second_derivative(&inside));
+            // B' vanishes: B'×B'' is 6v² times the product of the next two Taylor coefficients, on either side of the end.
+            let [_, b2, b3] = segment.power.taylor(&at.t);
+            let bend = b2.cross(&b3);
             if (bend > S::zero()) == (side == Side::Left) && !bend.is_zero() {
                 return self.on_curve(at);
             }

@@ -139,7 +139,7 @@ fn disks_agree_with_brute_force_on_extra_drawings() {
     for file in svg_files(&folder) {
         let strokes = load(&file);
         let cubics: usize = strokes.iter().map(|s| s.cubics.len()).sum();
-        if cubics <= 60 || common::everything() {
+        if cubics <= 40 || common::everything() {
             compare_disks(&stem(&file), &strokes, &mut random, if common::everything() { 12 } else { 2 });
         }
     }

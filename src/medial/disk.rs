@@ -315,13 +315,19 @@ impl<S: Scalar> Smallest<'_, S> {
         self.offer(&e, span, &(v + &pencil.shift));
     }
 
+    /// The chord to the point makes an angle with the tangent that is more than rounding: a straight line bounds no disk.
+    #[inline]
+    fn leaves_tangent(e: &Values<S>) -> bool {
+        e.a.clone().square() > e.b.clone() * &S::unit_roundoff().mul_pow2(3).square()
+    }
+
     /// Takes the disk through a point of the arc if it is smaller than the one so far.
     #[inline]
     fn offer(&mut self, e: &Values<S>, span: &Span<'_, S>, t: &S) {
         let touching = e.b <= span.pencil.touching && span.pencil.touching > S::zero();
         let radius = if touching {
             S::zero()
-        } else if e.a > S::zero() && e.a > self.bend.clone() * &e.b {
+        } else if e.a > S::zero() && e.a > self.bend.clone() * &e.b && Self::leaves_tangent(e) {
             (e.b.clone() / &e.a).half()
         } else {
             return;

@@ -125,7 +125,7 @@ impl<S: Scalar> Default for Guard<S> {
 pub fn tangent_disk<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>) -> TangentDisk<S> {
     let mut search = Search::new(foot);
     search.all(curve);
-    search.result()
+    search.result(curve)
 }
 
 /// [`tangent_disk`] for one of a row of neighbouring feet: the same result, found faster.
@@ -147,7 +147,7 @@ pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guar
     if let Some(touch) = &search.smallest.touch {
         guard.hint = Some(touch.arc);
     }
-    search.result()
+    search.result(curve)
 }
 
 /// What is looked at: an arc through a pencil, to a precision in its parameter.
@@ -182,8 +182,15 @@ impl<'f, S: Scalar> Search<'f, S> {
         );
     }
 
-    fn result(self) -> TangentDisk<S> {
-        TangentDisk { radius: self.smallest.radius, touch: self.smallest.touch }
+    /// The disk found. One whose arc leaves the tangent by less than the coordinates' noise over the whole diagonal is a
+    /// half-plane: nothing but rounding bounds it.
+    fn result(self, curve: &Curve<'_, S>) -> TangentDisk<S> {
+        let Smallest { radius, touch, .. } = self.smallest;
+        let flat = curve.diagonal.clone().square() / &(curve.noise.clone() * &S::int(64));
+        if flat.is_finite() && radius > flat {
+            return TangentDisk { radius: S::infinity(), touch: None };
+        }
+        TangentDisk { radius, touch }
     }
 
     /// Shrinks the disk where the arc enters it.

@@ -100,6 +100,16 @@ impl<S: Scalar> Arc<S> {
         piece.control_box()
     }
 
+    /// The part of its parameters in which the signs of derivatives mean something: all but the last √u beside a retracted
+    /// end, where B' vanishes. The curve moves by no more than a roundoff of its size there.
+    pub fn moving(&self, segment: &Segment<S>) -> [S; 2] {
+        let [from, to] = &self.span;
+        let margin = (to.clone() - from) * &S::unit_roundoff().sqrt();
+        let start = *from <= S::zero() && segment.end(0).retracted;
+        let end = *to >= S::one() && segment.end(1).retracted;
+        [if start { from.clone() + &margin } else { from.clone() }, if end { to.clone() - &margin } else { to.clone() }]
+    }
+
     /// How much it turns: the length of the difference of its end tangents, a little less than the angle in radians.
     pub fn turning(&self, segment: &Segment<S>) -> S {
         let [from, to] = &self.span;

@@ -38,6 +38,14 @@ impl<S: Scalar> Locality<S> {
         Self { strand: segment.strand, turn, loop_turn: segment.loop_turn.clone() }
     }
 
+    /// The locality of a place on the curve; `None` if there is no such place.
+    pub fn of(curve: &Curve<'_, S>, at: &CurveParam<S>) -> Option<Self> {
+        let segment = curve.segment(at.segment)?;
+        let arcs = curve.arcs_of(segment);
+        let arc = arcs.get(arcs.partition_point(|a| a.span[1] < at.t)).or_else(|| arcs.last())?;
+        Some(Self::on_arc(segment, arc, &at.t))
+    }
+
     /// Less than one radian of turning, along one strand, lies between this place and some point of the arc.
     #[inline]
     pub fn holds(&self, segment: &Segment<S>, arc: &Arc<S>) -> bool {
@@ -69,12 +77,13 @@ pub fn nearest_on_arc<S: Scalar>(segment: &Segment<S>, arc: &Arc<S>, p: &Point<S
         let distance_sq = point.distance_sq(p);
         NearPoint { at: CurveParam { segment: arc.segment, t }, point, distance_sq }
     };
-    let (f0, f1) = (fall(from).0, fall(to).0);
+    let [start, end] = arc.moving(segment);
+    let (f0, f1) = (fall(&start).0, fall(&end).0);
     let (a, b) = (near(from.clone()), near(to.clone()));
     let ends = if b.distance_sq < a.distance_sq { b } else { a };
     if f0 > S::zero() && f1 < S::zero() {
         let width = S::unit_roundoff() * &S::int(4);
-        let inner = near(falling_zero(from.clone(), to.clone(), &width, fall));
+        let inner = near(falling_zero(start, end, &width, fall));
         if inner.distance_sq < ends.distance_sq {
             return inner;
         }
@@ -95,6 +104,16 @@ pub fn nearest_non_local<S: Scalar>(
     limit_sq: S,
 ) -> Option<NearPoint<S>> {
     nearest_where(curve, p, limit_sq, |segment, arc| !locality.holds(segment, arc))
+}
+
+/// The point of C nearest to p among what is local to none of some places, if it is nearer than `limit_sq`.
+pub fn nearest_beside<S: Scalar>(
+    curve: &Curve<'_, S>,
+    p: &Point<S>,
+    localities: &[Locality<S>],
+    limit_sq: S,
+) -> Option<NearPoint<S>> {
+    nearest_where(curve, p, limit_sq, |segment, arc| !localities.iter().any(|l| l.holds(segment, arc)))
 }
 
 fn nearest_where<S: Scalar>(

@@ -13,7 +13,7 @@
 use super::foot::Foot;
 use super::pencil::{Pencil, Values};
 use crate::bezier::newton::falling_zero;
-use crate::curve::{Arc, Curve, CurveParam};
+use crate::curve::{Arc, Curve, CurveParam, Segment};
 use crate::geometry::{Aabb, Point};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -50,7 +50,7 @@ struct Smallest<'f, S> {
 /// The state of a search.
 struct Search<'f, S> {
     smallest: Smallest<'f, S>,
-    /// The pencil of the segment (and half of it) that was looked at last.
+    /// The pencil of the segment (and [part](Pencil::part) of it) that was looked at last.
     pencil: Option<(u32, bool, Pencil<S>)>,
 }
 
@@ -198,14 +198,14 @@ impl<'f, S: Scalar> Search<'f, S> {
         let Some(arc) = curve.arcs.get(index as usize) else { return };
         let Some(segment) = curve.segment(arc.segment) else { return };
         let middle = S::midpoint(&arc.span[0], &arc.span[1]);
-        let second_half = middle > S::one().half();
-        let known = matches!(&self.pencil, Some((s, h, _)) if *s == arc.segment && *h == second_half);
+        let part = Pencil::part(self.smallest.foot, arc.segment, &middle);
+        let known = matches!(&self.pencil, Some((s, p, _)) if *s == arc.segment && *p == part);
         if !known {
             let pencil = Pencil::new(curve, self.smallest.foot, arc.segment, segment, &middle);
-            self.pencil = Some((arc.segment, second_half, pencil));
+            self.pencil = Some((arc.segment, part, pencil));
         }
         if let Some((_, _, pencil)) = &self.pencil {
-            self.smallest.search_arc(pencil, arc, index);
+            self.smallest.search_arc(pencil, segment, arc, index);
         }
     }
 }
@@ -225,14 +225,16 @@ impl<S: Scalar> Smallest<'_, S> {
         d.dot(&Point::new(x.clone(), y.clone()).minus(&self.foot.point)) > -noise.clone()
     }
 
-    fn search_arc(&mut self, pencil: &Pencil<S>, arc: &Arc<S>, index: u32) {
+    fn search_arc(&mut self, pencil: &Pencil<S>, segment: &Segment<S>, arc: &Arc<S>, index: u32) {
         let [from, to] = &arc.span;
+        let span = Span { width: S::unit_roundoff().mul_pow2(6), pencil, arc, index };
+        for t in [from, to] {
+            self.offer(&pencil.at(&(t.clone() - &pencil.shift)), &span, t);
+        }
+        let [from, to] = &arc.moving(segment);
         let (v0, v1) = (from.clone() - &pencil.shift, to.clone() - &pencil.shift);
         let (e0, e1) = (pencil.at(&v0), pencil.at(&v1));
         let zero = S::zero();
-        let span = Span { width: S::unit_roundoff().mul_pow2(6), pencil, arc, index };
-        self.offer(&e0, &span, from);
-        self.offer(&e1, &span, to);
         // Seen from a distance of its own length or more, an arc has one maximum inside, or none.
         let far = e1.delta.minus(&e0.delta).norm_sq() < e0.b.clone().min(e1.b.clone());
         if !far && e0.approach < zero && e1.approach > zero {

@@ -60,17 +60,30 @@ pub(super) struct Values<S> {
 }
 
 impl<S: Scalar> Pencil<S> {
+    /// Which of a segment's pencils serves best around the parameter t; the same answer means the same pencil.
+    ///
+    /// On the foot's own segment: whether t is nearer to f around the ends than along the segment. On any other: whether t
+    /// lies in its second half.
+    pub(super) fn part(foot: &Foot<S>, index: u32, t: &S) -> bool {
+        let half = S::one().half();
+        if index == foot.at.segment && foot.side != Side::Fan {
+            (t.clone() - &foot.at.t).abs() > half
+        } else {
+            *t > half
+        }
+    }
+
     /// The pencil of `foot` seen from the segment with this index. `t` says which part of it is of interest: only its
-    /// precision depends on that.
+    /// precision depends on that, through [`Pencil::part`].
     #[inline]
     pub(super) fn new(curve: &Curve<'_, S>, foot: &Foot<S>, index: u32, segment: &Segment<S>, t: &S) -> Self {
         let half = S::one().half();
-        let own = index == foot.at.segment;
-        let far_half = (*t > half) != (foot.at.t > half);
-        if own && foot.side != Side::Fan {
-            // A closed segment can come back to f at its other end: that is seen across the joint.
-            let closed = far_half && curve.joint(EndId::new(index, 0)).any(|e| e == EndId::new(index, 1));
-            if !closed {
+        if index == foot.at.segment && foot.side != Side::Fan {
+            // A closed segment can come back to f at its other end: that is seen across the joint. Anywhere nearer the
+            // divided form is the only precise one.
+            let around =
+                Self::part(foot, index, t) && curve.joint(EndId::new(index, 0)).any(|e| e == EndId::new(index, 1));
+            if !around {
                 return Self::own(curve, foot, segment);
             }
         }

@@ -20,12 +20,12 @@
 //! The tolerance is relative to the radius, because |p − m| ≥ r for every p ∈ C: an error below τ·r is a relative error of
 //! lfs below τ. The criterion is an estimate; what it has proved is tested against truth (`docs/accuracy.md`).
 
-use super::disk::{Guard, TangentDisk, tangent_disk, tangent_disk_beside};
+use super::disk::{Guard, TangentDisk, Touch, tangent_disk, tangent_disk_beside};
 use super::foot::{Foot, Side};
 use crate::buffer::{BufferFull, Store};
 use crate::curve::contact::Contact;
 use crate::curve::joint::clockwise_rank;
-use crate::curve::nearest::{Locality, nearest_non_local};
+use crate::curve::nearest::{Locality, nearest_beside, nearest_on_arc};
 use crate::curve::{Arc, Curve, CurveParam, EndId, JointKind};
 use crate::geometry::{Point, Vector, distance_sq_to_segment};
 use crate::scalar::Scalar;
@@ -138,8 +138,8 @@ struct Station<S> {
     /// Finite, or there is no medial point.
     radius: S,
     centre: Point<S>,
-    /// The arc that bounds the disk, and where.
-    touch: Option<(u32, Point<S>)>,
+    /// What bounds the disk, and the point there.
+    touch: Option<(Touch<S>, Point<S>)>,
 }
 
 /// A station at the far end of a cell that is still to be split or accepted.
@@ -221,7 +221,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     /// Looks at a foot.
     fn station(&mut self, foot: Foot<S>) -> Station<S> {
         let TangentDisk { radius, touch } = tangent_disk_beside(self.curve, &foot, &mut self.guard);
-        let touch = touch.and_then(|t| self.curve.point(&t.at).map(|p| (t.arc, p)));
+        let touch = touch.and_then(|t| self.curve.point(&t.at).map(|p| (t, p)));
         let centre =
             if radius.is_finite() { foot.point.plus_scaled(&radius, &foot.direction) } else { foot.point.clone() };
         Station { at: foot.at, foot: foot.point, direction: foot.direction, side: foot.side, radius, centre, touch }
@@ -377,11 +377,13 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
             if (length > self.floor || spread) && apart && !pending.is_full() {
                 let at = CurveParam { segment: top.station.at.segment, t };
                 if !top.clear {
-                    top.clear = length <= self.floor || self.clear(arc, &at, &length);
+                    top.clear = length <= self.floor || self.clear(arc, &at, side, &length);
                 }
                 if let Some(foot) = Foot::normal(self.curve, at, side) {
                     let middle = self.station(foot);
-                    if !top.clear || self.rough(&here, &middle, &top.station, tolerance) {
+                    if (!top.clear || self.rough(&here, &middle, &top.station, tolerance))
+                        && !self.between_two(arc, side, [&here, &middle, &top.station], tolerance)
+                    {
                         let clear = top.clear;
                         pending.push(top);
                         if pending.try_push(Pending { station: middle, clear }).is_ok() {
@@ -400,12 +402,37 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         Ok(here)
     }
 
-    /// Nothing that is not local to this place comes nearer than `length`.
-    fn clear(&self, arc: &Arc<S>, at: &CurveParam<S>, length: &S) -> bool {
+    /// Nothing that is not local to this place, and could touch a disk on this side of it, comes nearer than `length`.
+    fn clear(&self, arc: &Arc<S>, at: &CurveParam<S>, side: Side, length: &S) -> bool {
         let Some(segment) = self.curve.segment(at.segment) else { return true };
-        let locality = Locality::on_arc(segment, arc, &at.t);
-        let p = segment.point(&at.t);
-        nearest_non_local(self.curve, &p, &locality, length.clone().square()).is_none()
+        let own = Locality::on_arc(segment, arc, &at.t);
+        self.alone(arc, &segment.point(&at.t), side, length, [own.clone(), own])
+    }
+
+    /// Within `reach` of p, a point of the arc, there is nothing but these strokes, and one more behind the arc at most.
+    ///
+    /// A stroke behind the arc can touch a disk before it only past the arc's ends, or past a crossing, which ends a cell: it
+    /// hides nothing between the feet of one.
+    fn alone(&self, arc: &Arc<S>, p: &Point<S>, side: Side, reach: &S, strokes: [Locality<S>; 2]) -> bool {
+        let limit = reach.clone().square();
+        let Some(near) = nearest_beside(self.curve, p, &strokes, limit.clone()) else { return true };
+        if !self.behind(arc, &near.point, side) {
+            return false;
+        }
+        let Some(behind) = Locality::of(self.curve, &near.at) else { return false };
+        let [a, b] = strokes;
+        nearest_beside(self.curve, p, &[a, b, behind], limit).is_none()
+    }
+
+    /// The point q lies on the other side of the arc: its nearest point there is an inner one, and clearly so.
+    fn behind(&self, arc: &Arc<S>, q: &Point<S>, side: Side) -> bool {
+        let Some(segment) = self.curve.segment(arc.segment) else { return false };
+        let near = nearest_on_arc(segment, arc, q);
+        let left = segment.tangent(&near.at.t).left();
+        let height = left.dot(&q.minus(&near.point));
+        let depth = if side == Side::Left { -height } else { height };
+        let inner = near.at.t > arc.span[0] && near.at.t < arc.span[1];
+        inner && depth > self.curve.noise.clone() * &S::int(8)
     }
 
     /// The polyline from a to b through m is not good enough yet.
@@ -431,11 +458,52 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         distance_sq_to_segment(&m.centre, &a.centre, &b.centre) > allowed_sq
     }
 
+    /// The cell is good enough because nothing but two strokes matters to it: its own and one opposite, as in a narrow
+    /// channel, a cusp or an acute crossing. There the medial axis runs smoothly between them, and an edge may be much longer
+    /// than its radii.
+    fn between_two(&self, arc: &Arc<S>, side: Side, cell: [&Station<S>; 3], tolerance: &S) -> bool {
+        let [a, m, b] = cell;
+        let Some((touch, _)) = &m.touch else { return false };
+        let opposite = |s: &Station<S>| match &s.touch {
+            Some((t, _)) => t.arc.abs_diff(touch.arc) <= 1 && self.same_path(t.arc, touch.arc),
+            // The two strokes meet here.
+            None => s.side == Side::Corner,
+        };
+        if !(opposite(a) && opposite(b)) {
+            return false;
+        }
+        let (ra, rm, rb) = (&a.radius, &m.radius, &b.radius);
+        let least = ra.clone().min(rm.clone()).min(rb.clone());
+        let allowed = (least.max(self.floor.clone() * &S::int(100)) * tolerance).twice();
+        if distance_sq_to_segment(&m.centre, &a.centre, &b.centre) > allowed.clone().square() {
+            return false;
+        }
+        // An edge through the middle point of an S would pass the test above: its radii do not.
+        let (before, after) = (a.centre.distance(&m.centre), m.centre.distance(&b.centre));
+        let length = before.clone() + &after;
+        if length > S::zero() {
+            let linear = (ra.clone() * &after + &(rb.clone() * &before)) / &length;
+            if (linear - rm).abs() > allowed.twice() {
+                return false;
+            }
+        }
+        let Some(own) = Locality::of(self.curve, &m.at) else { return false };
+        let Some(facing) = self.curve.arcs.get(touch.arc as usize) else { return false };
+        if self.curve.segment(facing.segment).is_none_or(|other| own.holds(other, facing)) {
+            return false;
+        }
+        let Some(facing) = Locality::of(self.curve, &touch.at) else { return false };
+        // Every disk of the cell lies within this distance of its middle.
+        let reach = a.foot.distance(&b.foot) + &(ra.clone().max(rm.clone()).max(rb.clone()) * &S::int(3));
+        self.alone(arc, &m.foot, side, &reach, [own, facing])
+    }
+
     /// The disks are bounded by the same or neighbouring arcs, or at nearly the same point.
     fn same_feature(&self, a: &Station<S>, b: &Station<S>) -> bool {
         match (&a.touch, &b.touch) {
             (Some((i, p)), Some((j, q))) => {
-                i.abs_diff(*j) <= 1 && self.same_path(*i, *j) || p.distance_sq(q) <= a.foot.distance_sq(&b.foot)
+                i.arc.abs_diff(j.arc) <= 1 && self.same_path(i.arc, j.arc)
+                    || p.distance_sq(q) <= a.foot.distance_sq(&b.foot)
             }
             _ => true,
         }

@@ -6,9 +6,11 @@ mod common;
 
 use common::{Model, Stroke, curve_model, pt, rounded};
 use feature_sampling::bezier::Cubic;
+use feature_sampling::buffer::SliceStore;
 use feature_sampling::curve::CurveParam;
 use feature_sampling::curve::door::DoorOptions;
-use feature_sampling::medial::Resolution;
+use feature_sampling::medial::walk::relevance;
+use feature_sampling::medial::{MedialPoint, Resolution, walk};
 use feature_sampling::model::{CurveModel, MedialModel};
 use feature_sampling::sampling::Bound;
 use feature_sampling::scalar::Scalar;
@@ -131,4 +133,49 @@ fn nothing_is_an_error() {
     // Beside a path that is none, others are kept.
     let model = curve_model(&[point, common::stick([0.0, 0.0], [1.0, 0.0])], &DoorOptions::default());
     assert_eq!(model.curve().paths.len(), 1);
+}
+
+/// Drawings that once took a million medial points or more: narrow cusps, strokes that coincide for a stretch, lines that
+/// run back over themselves, an end that touches its own path. What lies between two strokes needs few points.
+#[test]
+fn degenerate_drawings_take_few_medial_points() {
+    type Path<'a> = (bool, &'a [[[i32; 2]; 4]]);
+    let drawings: [&[Path<'_>]; 6] = [
+        &[(false, &[[[4, 1], [2, 6], [3, 0], [4, 1]]]), (false, &[[[3, 3], [4, 3], [3, 6], [3, 1]]])],
+        &[
+            (true, &[[[1, 4], [0, 4], [0, 3], [6, 4]], [[6, 4], [4, 6], [2, 1], [1, 1]]]),
+            (false, &[[[1, 3], [3, 5], [1, 0], [5, 0]], [[5, 0], [2, 4], [0, 0], [2, 5]]]),
+            (false, &[[[2, 6], [4, 2], [0, 3], [6, 4]]]),
+        ],
+        &[(false, &[[[4, 0], [5, 1], [3, 1], [2, 2]], [[2, 2], [5, 4], [4, 5], [2, 2]]])],
+        &[
+            (false, &[[[4, 4], [0, 4], [5, 4], [4, 4]]]),
+            (false, &[[[1, 3], [4, 2], [0, 2], [4, 4]], [[4, 4], [4, 5], [0, 4], [2, 1]]]),
+        ],
+        &[
+            (true, &[[[1, 2], [3, 2], [6, 1], [3, 2]]]),
+            (false, &[[[4, 0], [0, 4], [0, 5], [3, 2]], [[3, 2], [5, 4], [6, 5], [6, 1]]]),
+            (true, &[[[4, 2], [1, 3], [3, 3], [1, 2]]]),
+        ],
+        &[
+            (true, &[[[6, 2], [4, 5], [0, 3], [2, 1]], [[2, 1], [4, 0], [3, 1], [3, 1]]]),
+            (true, &[[[1, 0], [4, 3], [4, 3], [5, 3]], [[5, 3], [6, 1], [6, 5], [6, 5]]]),
+            (true, &[[[6, 5], [1, 4], [0, 4], [1, 6]]]),
+        ],
+    ];
+    let mut room = vec![MedialPoint::<f64>::default(); 10_000];
+    for (i, drawing) in drawings.iter().enumerate() {
+        let point = |[x, y]: [i32; 2]| pt(f64::from(x), f64::from(y));
+        let strokes: Vec<(bool, Vec<Cubic<f64>>)> =
+            drawing.iter().map(|(c, v)| (*c, v.iter().map(|q| Cubic { points: q.map(point) }).collect())).collect();
+        let paths: Vec<(bool, &[Cubic<f64>])> = strokes.iter().map(|(c, v)| (*c, v.as_slice())).collect();
+        let model = CurveModel::new(&paths, &DoorOptions::default()).expect("a drawing");
+        let curve = model.curve();
+        let relevance = relevance(&curve);
+        for (path, _) in (0_u32..).zip(curve.paths) {
+            let mut out = SliceStore::new(&mut room);
+            let end = walk(&curve, path, &Resolution::Tolerance(1e-2), model.contacts(), &relevance, 0, &mut out);
+            assert!(end.is_ok(), "drawing {i}, path {path}: {end:?}");
+        }
+    }
 }

@@ -4,10 +4,11 @@
 //! are halved while something non-local is within reach, and what is left at the smallest size touches. No pair of pieces
 //! is looked at twice, and the cost is that of O(log) closest-point searches a contact.
 //!
-//! A contact is an interval of parameters, since strokes can coincide along a stretch. Touching means: nearer than
+//! A contact is an interval of parameters, since strokes can coincide along a stretch: straight ones are recognised as a
+//! whole, curved ones at a hundred-thousandth of the diagonal. Touching means: nearer than
 //! [`reach`], a billionth of the diagonal (or a few roundoffs, where the scalar has fewer bits).
 
-use super::nearest::{Locality, nearest_non_local};
+use super::nearest::{Locality, nearest_beside, nearest_non_local};
 use super::{Arc, Curve, CurveParam, JointKind, Segment};
 use crate::buffer::{BufferFull, Store};
 use crate::scalar::Scalar;
@@ -78,6 +79,15 @@ impl<S: Scalar> Finder<'_, '_, S> {
                 from = to;
                 continue;
             };
+            if length <= self.coarse && self.apart(segment, arc, [&from, &middle, &to], &length) {
+                from = to;
+                continue;
+            }
+            if self.on_one_line(segment, arc, [&from, &to]) {
+                Self::add(index, &from, &to, first, out)?;
+                from = to;
+                continue;
+            }
             let small = length <= self.reach || middle <= from || middle >= to;
             let same = !small
                 && length <= self.coarse
@@ -85,7 +95,8 @@ impl<S: Scalar> Finder<'_, '_, S> {
                 && self.other(segment, arc, &from, &self.reach).is_some()
                 && self.other(segment, arc, &to, &self.reach).is_some();
             if small || same {
-                if !self.at_corner(segment, &from, &to) {
+                // What coincides with another stroke does so at a corner too.
+                if same || !self.at_corner(segment, &from, &to) {
                     Self::add(index, &from, &to, first, out)?;
                 }
                 from = to;
@@ -97,6 +108,60 @@ impl<S: Scalar> Finder<'_, '_, S> {
             }
         }
         Ok(())
+    }
+
+    /// Both ends of a straight stretch lie on the same other line, hence all of it.
+    fn on_one_line(&self, segment: &Segment<S>, arc: &Arc<S>, ends: [&S; 2]) -> bool {
+        let straight = |s: &Segment<S>| s.power.a.iter().skip(1).all(|v| v.norm() <= self.reach);
+        if !straight(segment) {
+            return false;
+        }
+        let [a, b] = ends.map(|t| {
+            let own = Locality::on_arc(segment, arc, t);
+            nearest_non_local(self.curve, &segment.point(t), &own, self.reach.clone().square())
+        });
+        let (Some(a), Some(b)) = (a, b) else { return false };
+        a.at.segment == b.at.segment && self.curve.segment(a.at.segment).is_some_and(straight)
+    }
+
+    /// A single other stroke runs beside this stretch without touching it, as strokes do where they leave a cusp.
+    ///
+    /// At this size both are parabolas at most, so the gap is a quadratic, known from its values at the ends and the middle.
+    fn apart(&self, segment: &Segment<S>, arc: &Arc<S>, t: [&S; 3], length: &S) -> bool {
+        let limit = (length.clone() + &self.reach).square();
+        let mut other: Option<Locality<S>> = None;
+        let mut gaps: ArrayVec<S, 3> = ArrayVec::new();
+        for t in t {
+            let p = segment.point(t);
+            let own = Locality::on_arc(segment, arc, t);
+            let Some(near) = nearest_non_local(self.curve, &p, &own, limit.clone()) else { return false };
+            let same = other.as_ref().is_none_or(|o| {
+                let its = self.curve.segment(near.at.segment);
+                its.is_some_and(|s| self.curve.arcs_of(s).iter().any(|a| a.span[1] >= near.at.t && o.holds(s, a)))
+            });
+            if !same {
+                return false;
+            }
+            if other.is_none() {
+                other = Locality::of(self.curve, &near.at);
+            }
+            let ahead = segment.tangent(t).left().dot(&near.point.minus(&p));
+            if ahead.clone().abs() <= self.reach {
+                return false;
+            }
+            gaps.push(ahead);
+        }
+        let (Some(other), [a, m, b]) = (other, gaps.as_slice()) else { return false };
+        let same_side = (*a > S::zero()) == (*m > S::zero()) && (*m > S::zero()) == (*b > S::zero());
+        // The quadratic's smallest value is above the smallest of the three less its bend.
+        let bend = (a.clone() + b - &m.clone().twice()).abs();
+        let least = a.clone().abs().min(m.clone().abs()).min(b.clone().abs());
+        if !same_side || least <= bend {
+            return false;
+        }
+        let middle = t[1];
+        let own = Locality::on_arc(segment, arc, middle);
+        nearest_beside(self.curve, &segment.point(middle), &[own, other], limit).is_none()
     }
 
     /// Distance from a point of the arc to what is not local to it, if below `limit`.

@@ -37,8 +37,8 @@ pub struct CurveParam<S> {
 /// Where a segment of C comes from in the drawing, to translate parameters back.
 ///
 /// A cubic is split at exact cusps: the segment is the window [`from`, `to`] of its source. A straight cubic with uneven
-/// speed is run through at uniform speed instead: `handles` are the positions of its inner control points along the
-/// line, in [0, 1] (1/3 and 2/3 for uniform speed).
+/// speed is run through at uniform speed instead: `handles` are the positions of the window's inner control points along
+/// the line, the ends at 0 and 1 (1/3 and 2/3 for uniform speed).
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Source<S> {
     /// Index into the path's list of cubics as it came to the door.
@@ -64,7 +64,7 @@ impl<S: Scalar> Source<S> {
     }
 }
 
-/// Solves 3α s(1−s)² + 3β s²(1−s) + s³ = x for s in [0, 1], where 0 ≤ α ≤ β ≤ 1 (the left side is monotone).
+/// Solves 3α s(1−s)² + 3β s²(1−s) + s³ = x for s in [0, 1], where the left side is monotone.
 fn uneven_parameter<S: Scalar>([alpha, beta]: &[S; 2], x: &S) -> S {
     let (mut lo, mut hi) = (S::zero(), S::one());
     if *x <= lo {

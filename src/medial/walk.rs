@@ -23,7 +23,7 @@
 use super::disk::{Guard, TangentDisk, Touch, tangent_disk, tangent_disk_beside};
 use super::foot::{Foot, Side};
 use crate::buffer::{BufferFull, Store};
-use crate::curve::contact::Contact;
+use crate::curve::contact::{Contact, reach};
 use crate::curve::joint::clockwise_rank;
 use crate::curve::nearest::{Locality, nearest_beside, nearest_on_arc};
 use crate::curve::{Arc, Curve, CurveParam, EndId, JointKind};
@@ -149,8 +149,15 @@ struct Pending<S> {
     clear: bool,
 }
 
+/// Strokes that are known where something else is looked for.
+type Strokes<S> = ArrayVec<Locality<S>, 6>;
+
 /// Halvings of a cell: 2^−56 of a segment is below every floor.
 const DEPTH: usize = 56;
+
+/// Edges of the medial axis along an arc that coincides with another stroke: they leave it by less than a ten-thousandth of
+/// its length, since it turns by at most 30°.
+const COINCIDING: i32 = 64;
 
 struct Walker<'w, 'c, S, Out> {
     curve: &'w Curve<'c, S>,
@@ -280,8 +287,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
             let points = touched.len();
             for m in 0..points {
                 let Some(contact) = touched.get(if forwards { m } else { points - 1 - m }) else { break };
-                let Some(there) = self.on_curve(CurveParam { segment: index, t: contact.middle() }) else { break };
-                here = self.cell(here, there, arc, side)?;
+                here = self.contact(here, contact, arc, side)?;
             }
             let t = if forwards { &arc.span[1] } else { &arc.span[0] };
             let Some(there) = self.side_station(CurveParam { segment: index, t: t.clone() }, side) else { break };
@@ -291,13 +297,51 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         Ok(())
     }
 
-    /// Contacts strictly inside an arc.
+    /// Contacts that have a place strictly inside an arc.
     fn contacts_in(&self, segment: u32, arc: &Arc<S>) -> &'w [Contact<S>] {
         let [from, to] = &arc.span;
         let contacts = self.contacts;
-        let low = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.middle() <= *from));
-        let high = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.middle() < *to));
+        let low = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.span[1] <= *from));
+        let high = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.span[0] < *to));
         contacts.get(low..high).unwrap_or_default()
+    }
+
+    /// Goes on to and through the part of a contact that lies on an arc. Where strokes coincide along a stretch the medial
+    /// axis is the stretch itself.
+    fn contact(
+        &mut self,
+        from: Station<S>,
+        contact: &Contact<S>,
+        arc: &Arc<S>,
+        side: Side,
+    ) -> Result<Station<S>, BufferFull> {
+        let index = arc.segment;
+        let [start, end] = &contact.span;
+        let (a, b) = (start.clone().max(arc.span[0].clone()), end.clone().min(arc.span[1].clone()));
+        let point = |t: &S| self.curve.segment(index).map(|s| s.point(t));
+        let length = point(&a).zip(point(&b)).map_or_else(S::zero, |(p, q)| p.distance(&q));
+        if length <= reach(self.curve) * &S::int(8) {
+            let t = contact.middle();
+            let inside = t > arc.span[0] && t < arc.span[1];
+            return match self.on_curve(CurveParam { segment: index, t }).filter(|_| inside) {
+                Some(there) => self.cell(from, there, arc, side),
+                None => Ok(from),
+            };
+        }
+        let (a, b) = if side == Side::Left { (a, b) } else { (b, a) };
+        let Some(mut here) = self.on_curve(CurveParam { segment: index, t: a.clone() }) else { return Ok(from) };
+        if from.at != here.at {
+            self.cell(from, here.clone(), arc, side)?;
+        }
+        let edges = if length * &S::int(10_000) < *self.curve.diagonal { 1 } else { COINCIDING };
+        for k in 1..=edges {
+            let share = S::ratio(k, edges);
+            let t = if k == edges { b.clone() } else { (b.clone() - &a) * &share + &a };
+            let Some(there) = self.on_curve(CurveParam { segment: index, t }) else { break };
+            self.emit(&there)?;
+            here = there;
+        }
+        Ok(here)
     }
 
     /// Emits everything after `from` up to and including `to`, which lie on one arc; gives back `to`.
@@ -405,23 +449,42 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     /// Nothing that is not local to this place, and could touch a disk on this side of it, comes nearer than `length`.
     fn clear(&self, arc: &Arc<S>, at: &CurveParam<S>, side: Side, length: &S) -> bool {
         let Some(segment) = self.curve.segment(at.segment) else { return true };
-        let own = Locality::on_arc(segment, arc, &at.t);
-        self.alone(arc, &segment.point(&at.t), side, length, [own.clone(), own])
+        let mut strokes = Strokes::new();
+        strokes.push(Locality::on_arc(segment, arc, &at.t));
+        self.alone(arc, None, &segment.point(&at.t), side, length, strokes)
     }
 
-    /// Within `reach` of p, a point of the arc, there is nothing but these strokes, and one more behind the arc at most.
+    /// Within `reach` of p, a point of the arc, there is nothing but these strokes and a few more that are hidden.
     ///
     /// A stroke behind the arc can touch a disk before it only past the arc's ends, or past a crossing, which ends a cell: it
-    /// hides nothing between the feet of one.
-    fn alone(&self, arc: &Arc<S>, p: &Point<S>, side: Side, reach: &S, strokes: [Locality<S>; 2]) -> bool {
+    /// hides nothing between the feet of one. Nor does a stroke behind the one that faces the arc, or coinciding with it.
+    fn alone(
+        &self,
+        arc: &Arc<S>,
+        facing: Option<&Arc<S>>,
+        p: &Point<S>,
+        side: Side,
+        reach: &S,
+        mut strokes: Strokes<S>,
+    ) -> bool {
         let limit = reach.clone().square();
-        let Some(near) = nearest_beside(self.curve, p, &strokes, limit.clone()) else { return true };
-        if !self.behind(arc, &near.point, side) {
-            return false;
+        loop {
+            let Some(near) = nearest_beside(self.curve, p, &strokes, limit.clone()) else { return true };
+            let hidden = self.behind(arc, &near.point, side) || facing.is_some_and(|f| self.covered(f, p, &near.point));
+            // Each turn takes one more stroke: the room for them bounds the loop.
+            let Some(stroke) = Locality::of(self.curve, &near.at).filter(|_| hidden) else { return false };
+            if strokes.try_push(stroke).is_err() {
+                return false;
+            }
         }
-        let Some(behind) = Locality::of(self.curve, &near.at) else { return false };
-        let [a, b] = strokes;
-        nearest_beside(self.curve, p, &[a, b, behind], limit).is_none()
+    }
+
+    /// Seen from p, the point q is behind an arc or on it.
+    fn covered(&self, facing: &Arc<S>, p: &Point<S>, q: &Point<S>) -> bool {
+        let Some(segment) = self.curve.segment(facing.segment) else { return false };
+        let near = nearest_on_arc(segment, facing, q).point;
+        let ahead = near.minus(p).unit();
+        ahead.is_some_and(|d| d.dot(&q.minus(&near)) >= -reach(self.curve))
     }
 
     /// The point q lies on the other side of the arc: its nearest point there is an inner one, and clearly so.
@@ -492,10 +555,13 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         if self.curve.segment(facing.segment).is_none_or(|other| own.holds(other, facing)) {
             return false;
         }
-        let Some(facing) = Locality::of(self.curve, &touch.at) else { return false };
+        let Some(other) = Locality::of(self.curve, &touch.at) else { return false };
+        let mut strokes = Strokes::new();
+        strokes.push(own);
+        strokes.push(other);
         // Every disk of the cell lies within this distance of its middle.
         let reach = a.foot.distance(&b.foot) + &(ra.clone().max(rm.clone()).max(rb.clone()) * &S::int(3));
-        self.alone(arc, &m.foot, side, &reach, [own, facing])
+        self.alone(arc, Some(facing), &m.foot, side, &reach, strokes)
     }
 
     /// The disks are bounded by the same or neighbouring arcs, or at nearly the same point.
@@ -548,8 +614,9 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         }
         let Some(branch) = curve.end(next) else { return Ok(()) };
         let rank = best.unwrap_or_else(|| S::int(4));
-        // Half a turn has rank 2: more than that leaves room for a fan.
-        if rank > S::int(2) {
+        // Half a turn has rank 2: more than that leaves room for a fan, unless another stroke passes here.
+        let fan = rank > S::int(2) && !self.touched(end);
+        if fan {
             let first = arriving.leaving.left().opposite();
             let last = branch.leaving.left();
             if let Some(middle) = arriving.leaving.plus(&branch.leaving).opposite().unit() {
@@ -565,8 +632,23 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
             self.break_line();
         }
         // The next side starts with its own normal, which the fan ended with, or which the corner point precedes.
-        self.joined = self.joined && rank > S::int(2);
+        self.joined = self.joined && fan;
         Ok(())
+    }
+
+    /// Something that is not joined here touches the joint: no disk fits at it.
+    fn touched(&self, end: EndId) -> bool {
+        let Some(p) = self.curve.end_point(end) else { return false };
+        let mut branches: ArrayVec<Locality<S>, 8> = ArrayVec::new();
+        for e in self.curve.joint(end) {
+            let t = if e.side() == 0 { S::zero() } else { S::one() };
+            let Some(locality) = Locality::of(self.curve, &CurveParam { segment: e.segment(), t }) else { continue };
+            if branches.try_push(locality).is_err() {
+                return false;
+            }
+        }
+        let limit = reach(self.curve) * &S::int(4);
+        nearest_beside(self.curve, p, &branches, limit.square()).is_some()
     }
 
     /// The medial points of an end's directions from `first` over `middle` to `last`.

@@ -1,14 +1,16 @@
 //! Steps 2 to 4 of the door: from one path of the drawing to segments.
 //!
 //! Short segments are dropped and their neighbours snapped together, paths are closed, straight cubics become lines of
-//! uniform speed, cubics with an exact cusp are split there.
+//! uniform speed from each point where they turn back to the next, cubics with an exact cusp are split there.
 
 use super::{CurveError, Door, PathInput, index_of};
 use crate::bezier::{Cubic, PowerBasis, critical};
 use crate::buffer::Store;
 use crate::curve::{EndId, JointEnd, JointKind, Path, Segment, Source};
 use crate::geometry::{Point, Vector};
+use crate::polynomial::Polynomial;
 use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
 
 impl<S: Scalar> Door<'_, S> {
     /// Steps 2 to 4 for one path.
@@ -96,7 +98,7 @@ impl<S: Scalar> Door<'_, S> {
         Ok(input.closed)
     }
 
-    /// Step 4: a straight cubic becomes a line, a cusped one two cubics.
+    /// Step 4: a straight cubic becomes lines, a cusped one two cubics.
     fn take_cubic(
         &mut self,
         path: u32,
@@ -104,17 +106,8 @@ impl<S: Scalar> Door<'_, S> {
         mut cubic: Cubic<S>,
         segments: &mut impl Store<Segment<S>>,
     ) -> Result<(), CurveError> {
-        let whole = Source { segment: source, from: S::zero(), to: S::one(), handles: None };
-        if let Some(handles) = self.straight(&cubic) {
-            let [a, _, _, b] = cubic.points;
-            let third = S::ratio(1, 3);
-            let uniform = (handles[0].clone() - &third).abs().max((handles[1].clone() - &third.twice()).abs())
-                <= S::unit_roundoff().mul_pow2(4);
-            if !uniform {
-                self.report.straightened += 1;
-            }
-            let handles = (!uniform).then_some(handles);
-            return Self::add(path, Source { handles, ..whole }, Cubic::line(a, b), segments);
+        if let Some(along) = self.straight(&cubic) {
+            return self.take_straight(path, source, &cubic, along, segments);
         }
         // Handles that rounding left over point anywhere, and would hook the curve at a scale below every floor.
         let left_over = self.nothing() * &S::int(100);
@@ -182,32 +175,111 @@ impl<S: Scalar> Door<'_, S> {
         Ok(segments.push(segment)?)
     }
 
-    /// The positions of the inner control points along a straight cubic that does not turn back, in [0, 1].
-    fn straight(&self, cubic: &Cubic<S>) -> Option<[S; 2]> {
+    /// The positions of the control points of a straight cubic along its line, the first at 0.
+    fn straight(&self, cubic: &Cubic<S>) -> Option<[S; 4]> {
         let [a, b, c, d] = &cubic.points;
-        let chord = d.minus(a);
-        let length_sq = chord.norm_sq();
-        let length = length_sq.clone().sqrt();
-        if length <= self.nothing() {
+        let inner = [b.minus(a), c.minus(a), d.minus(a)];
+        let mut longest = &inner[2];
+        for v in &inner[..2] {
+            if v.norm_sq() > longest.norm_sq() {
+                longest = v;
+            }
+        }
+        if longest.norm() <= self.nothing() {
             return None;
         }
-        let (ab, ac) = (b.minus(a), c.minus(a));
-        let off = ab.cross(&chord).abs().max(ac.cross(&chord).abs()) / &length;
+        let line = longest.unit()?;
+        let off = inner.iter().fold(S::zero(), |m, v| m.max(v.cross(&line).abs()));
         // Control points that were rounded lie off the line by a few roundoffs of the coordinates.
         let largest = [a, b, c, d].iter().fold(S::zero(), |m, p| m.max(p.x.clone().abs()).max(p.y.clone().abs()));
         if off > largest * &S::unit_roundoff().mul_pow2(3) {
             return None;
         }
-        let slack = S::unit_roundoff().mul_pow2(4);
-        let alpha = ab.dot(&chord) / &length_sq;
-        let beta = ac.dot(&chord) / &length_sq;
-        let ordered = alpha >= -slack.clone() && beta >= alpha.clone() - &slack && beta <= S::one() + &slack;
-        ordered.then(|| {
-            let alpha = alpha.clamp(S::zero(), S::one());
-            let beta = beta.clamp(alpha.clone(), S::one());
-            [alpha, beta]
-        })
+        let [x1, x2, x3] = inner.map(|v| v.dot(&line));
+        Some([S::zero(), x1, x2, x3])
     }
+
+    /// A straight cubic: a line of uniform speed from each point where it turns back to the next.
+    fn take_straight(
+        &mut self,
+        path: u32,
+        source: u32,
+        cubic: &Cubic<S>,
+        along: [S; 4],
+        segments: &mut impl Store<Segment<S>>,
+    ) -> Result<(), CurveError> {
+        let turns = turning_points(&along);
+        let short = self.short();
+        let mut start = cubic.start().clone();
+        let mut from = S::zero();
+        let mut pieces = 0;
+        for to in turns.into_iter().chain([S::one()]) {
+            let last = to >= S::one();
+            let end = if last { cubic.end().clone() } else { cubic.eval(&to) };
+            // A hook shorter than any segment is none, unless nothing else is left of the cubic.
+            if start.distance(&end) < short && !(last && pieces == 0) {
+                if last && let Some(before) = segments.items_mut().last_mut() {
+                    before.cubic = Cubic::line(before.cubic.start().clone(), end);
+                    before.power = before.cubic.power_basis();
+                }
+                from = to;
+                continue;
+            }
+            let [y0, y1, y2, y3] = window(&along, &from, &to);
+            let length = y3 - &y0;
+            let alpha = (y1 - &y0) / &length;
+            let beta = (y2 - &y0) / &length;
+            let third = S::ratio(1, 3);
+            let uniform = (alpha.clone() - &third).abs().max((beta.clone() - &third.twice()).abs())
+                <= S::unit_roundoff().mul_pow2(4);
+            if !uniform {
+                self.report.straightened += 1;
+            }
+            let handles = (!uniform).then_some([alpha, beta]);
+            if pieces > 0 {
+                self.report.cusps += 1;
+            }
+            let piece = Source { segment: source, from, to: to.clone(), handles };
+            Self::add(path, piece, Cubic::line(start, end.clone()), segments)?;
+            pieces += 1;
+            start = end;
+            from = to;
+        }
+        Ok(())
+    }
+}
+
+/// Control values of the window [from, to] of a cubic in Bernstein form, by blossoming.
+fn window<S: Scalar>(x: &[S; 4], from: &S, to: &S) -> [S; 4] {
+    let mix = |a: &S, b: &S, t: &S| (S::one() - t) * a + &(b.clone() * t);
+    let blossom = |r: &S, s: &S, t: &S| {
+        let [a, b, c, d] = x;
+        let (p, q, r) = (mix(a, b, r), mix(b, c, r), mix(c, d, r));
+        let (p, q) = (mix(&p, &q, s), mix(&q, &r, s));
+        mix(&p, &q, t)
+    };
+    [blossom(from, from, from), blossom(from, from, to), blossom(from, to, to), blossom(to, to, to)]
+}
+
+/// Where a cubic along a line turns back, ascending, in (0, 1).
+fn turning_points<S: Scalar>(x: &[S; 4]) -> ArrayVec<S, 2> {
+    let [x0, x1, x2, x3] = x;
+    let (d0, d1, d2) = (x1.clone() - x0, x2.clone() - x1, x3.clone() - x2);
+    let speed = Polynomial::new([d0.clone(), (d1.clone() - &d0).twice(), d2 - &d1.twice() + &d0]);
+    let mut turns = ArrayVec::new();
+    let roots = speed.roots_in_unit().unwrap_or_default();
+    let mut before = S::zero();
+    for (i, root) in roots.iter().enumerate() {
+        let t = &root.value;
+        let after = roots.get(i + 1).map_or_else(S::one, |r| r.value.clone());
+        let (left, right) = (S::midpoint(&before, t), S::midpoint(t, &after));
+        before = t.clone();
+        let turns_back = (speed.eval(&left) > S::zero()) != (speed.eval(&right) > S::zero());
+        if turns_back && *t > S::zero() && *t < S::one() && turns.try_push(t.clone()).is_err() {
+            break;
+        }
+    }
+    turns
 }
 
 /// Length of the control polygon: at least the curve's.

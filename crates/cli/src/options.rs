@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use fsample_experiments::shard::Shard;
 use lineart::drawing::Drawing;
 use lineart::export::OptionValue;
 use lineart::units::Length;
@@ -46,6 +47,7 @@ pub(crate) enum Command {
     Lfs(LfsArgs),
     Inspect(InspectArgs),
     Compare(CompareArgs),
+    Reproduce(ReproduceArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }
@@ -196,6 +198,66 @@ pub(crate) enum CompareFormat {
     Text,
     Csv,
     Json,
+}
+
+/// Compute the tables and figures of the paper again.
+///
+/// Each experiment runs on the curves given with --curve; without, on drawings that come with the program, and its tables
+/// say so. Into the folder -o go Markdown, JSON, one CSV per table and SVG plots; without -o the first table goes to
+/// standard output as CSV. Long experiments can be spread: each machine runs its --shard, and --merge makes the report
+/// from what they found, under the same curves and options.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  fsample reproduce table2 --quick
+  fsample reproduce table2 --curve bunny.svg --curve complex.svg --curve spiral.svg -o results
+  fsample reproduce table2 --curve a.svg --curve b.svg --shard 1/2 -o parts
+  fsample reproduce table2 --curve a.svg --curve b.svg --merge parts/table2.shard-*.csv -o results")]
+pub(crate) struct ReproduceArgs {
+    /// The experiments
+    #[arg(value_enum, required = true, value_name = "NAME")]
+    pub(crate) experiment: Vec<ExperimentName>,
+    /// A curve (as IN of other commands); may be repeated
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub(crate) curve: Vec<String>,
+    /// Do only part I of N
+    #[arg(long, value_name = "I/N", conflicts_with = "merge")]
+    pub(crate) shard: Option<Shard>,
+    /// Compute nothing; put these parts together
+    #[arg(long, value_name = "FILES", num_args = 1..)]
+    pub(crate) merge: Vec<PathBuf>,
+    /// The folder for results; it is made where there is none
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// A small version of the experiment, in seconds
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Threads to use, except where time is measured; the result does not depend on it [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No warnings, no progress
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Experiments of `reproduce`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExperimentName {
+    /// Time, and what the hull test and the quintic solver save
+    Table2,
+    /// All of them
+    All,
+}
+
+impl ReproduceArgs {
+    /// What was asked for: each once, in the order of the paper.
+    pub(crate) fn names(&self) -> Vec<ExperimentName> {
+        let asked = |name: &ExperimentName| {
+            *name != ExperimentName::All
+                && (self.experiment.contains(name) || self.experiment.contains(&ExperimentName::All))
+        };
+        ExperimentName::value_variants().iter().copied().filter(asked).collect()
+    }
 }
 
 /// Print a completion script for a shell.

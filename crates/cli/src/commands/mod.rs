@@ -6,6 +6,7 @@ mod inspect;
 mod lfs;
 mod man;
 mod medial;
+mod reproduce;
 mod sample;
 
 use crate::errors::Failure;
@@ -19,6 +20,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Lfs(args) => lfs::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Reproduce(args) => reproduce::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
     }

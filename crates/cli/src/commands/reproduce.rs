@@ -1,0 +1,135 @@
+//! `fsample reproduce`: the paper's tables and figures, computed again.
+//!
+//! What an experiment computes lives in `fsample-experiments`. This file finds the curves, runs the units (or some of them,
+//! or none where shards are merged) and writes files. To add an experiment: a variant of
+//! [`ExperimentName`](crate::options::ExperimentName) and a line in [`experiments`].
+
+use std::fs;
+use std::io;
+use std::num::NonZero;
+use std::path::Path;
+
+use fsample_experiments::shard::{self, Part, Shard};
+use fsample_experiments::source::Source;
+use fsample_experiments::table2::Table2;
+use fsample_experiments::{Experiment, Report};
+use lineart::drawing::Drawing;
+use lineart::export::atomic;
+use lineart::svg;
+
+use crate::errors::{Failure, warn};
+use crate::input;
+use crate::options::{ExperimentName, ReproduceArgs};
+use crate::output::to_stdout;
+use crate::progress::Progress;
+
+/// Drawings that come with the program, for runs without `--curve`.
+const SHIPPED: [(&str, &str); 2] = [
+    ("leaf_01.svg", include_str!("../../../../drawings/leaf_01.svg")),
+    ("bee.svg", include_str!("../../../../drawings/bee.svg")),
+];
+
+/// The experiments that were asked for, ready to run.
+fn experiments(args: &ReproduceArgs) -> Result<Vec<Box<dyn Experiment>>, Failure> {
+    let curves = curves(args)?;
+    let mut list: Vec<Box<dyn Experiment>> = Vec::new();
+    for name in args.names() {
+        match name {
+            ExperimentName::Table2 => list.push(Box::new(Table2::new(curves.clone(), args.quick))),
+            // Names of many were told apart already.
+            ExperimentName::All => {}
+        }
+    }
+    Ok(list)
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
+    let shards = args.merge.iter().map(|file| read_shard(file)).collect::<Result<Vec<_>, _>>()?;
+    let experiments = experiments(args)?;
+    if experiments.len() > 1 && args.output.is_none() {
+        return Err(Failure::usage("several experiments make several files: say where with -o DIR"));
+    }
+    if let Some(folder) = &args.output {
+        fs::create_dir_all(folder).map_err(|error| Failure::output(&folder.display().to_string(), &error))?;
+    }
+    for experiment in &experiments {
+        let experiment = experiment.as_ref();
+        if let Some(shard) = args.shard {
+            let part = compute(experiment, shard, args)?;
+            let name = format!("{}.shard-{}-of-{}.csv", experiment.name(), shard.index, shard.of);
+            write(args.output.as_deref(), &name, |out| part.write(out))?;
+            continue;
+        }
+        let report = if args.merge.is_empty() {
+            let part = compute(experiment, Shard::WHOLE, args)?;
+            shard::merge(experiment, vec![(experiment.name().to_owned(), part)])
+        } else {
+            let of_this = |part: &Part| experiments.len() == 1 || part.experiment() == experiment.name();
+            shard::merge(experiment, shards.iter().filter(|(_, part)| of_this(part)).cloned().collect())
+        };
+        write_report(args, &report.map_err(Failure::read)?)?;
+    }
+    Ok(())
+}
+
+/// The curves: those given, or those shipped.
+fn curves(args: &ReproduceArgs) -> Result<Vec<Source>, Failure> {
+    if args.curve.is_empty() {
+        return SHIPPED
+            .iter()
+            .map(|(name, text)| svg::read_str(text, name).map(|d| Source::new(&d, true)).map_err(Failure::read))
+            .collect();
+    }
+    let read = |file: &String| input::drawing(file, args.quiet).map(|drawing: Drawing| Source::new(&drawing, false));
+    let curves = args.curve.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    for (i, curve) in curves.iter().enumerate() {
+        if curves.iter().take(i).any(|other| other.name == curve.name) {
+            return Err(Failure::usage(format!("two curves are named “{}”: tables go by the file's name", curve.name)));
+        }
+    }
+    Ok(curves)
+}
+
+fn read_shard(file: &Path) -> Result<(String, Part), Failure> {
+    let name = file.display().to_string();
+    let text = fs::read_to_string(file).map_err(|error| Failure::input(&name, error))?;
+    let part = Part::read(&text, &name).map_err(Failure::read)?;
+    Ok((name, part))
+}
+
+fn compute(experiment: &dyn Experiment, shard: Shard, args: &ReproduceArgs) -> Result<Part, Failure> {
+    let progress = Progress::new(experiment.name(), args.quiet);
+    let available = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let threads = args.threads.map_or(available, usize::from);
+    shard::run(experiment, shard, threads, &|done, total| progress.of(done, total)).map_err(Failure::read)
+}
+
+/// A folder takes every form of a report, standard output the first table as CSV.
+fn write_report(args: &ReproduceArgs, report: &Report) -> Result<(), Failure> {
+    if !args.quiet {
+        let notes = report.tables.iter().flat_map(|table| &table.notes);
+        notes.filter_map(|note| note.strip_prefix("Warning: ")).for_each(warn);
+    }
+    if args.output.is_none() {
+        return write(None, "", |out| out.write_all(report.csv().as_bytes()));
+    }
+    for (name, content) in report.files() {
+        write(args.output.as_deref(), &name, |out| out.write_all(content.as_bytes()))?;
+    }
+    Ok(())
+}
+
+fn write(
+    folder: Option<&Path>,
+    name: &str,
+    body: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    match folder {
+        None => to_stdout(body).map_err(|error| Failure::output("-", &error)),
+        Some(folder) => {
+            let file = folder.join(name);
+            atomic::write_file(&file, body).map_err(|error| Failure::output(&file.display().to_string(), &error))
+        }
+    }
+}

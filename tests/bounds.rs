@@ -287,3 +287,37 @@ fn errors_have_types() {
     assert_eq!(with(&|o| (o.limit, o.max_distance) = (10, Some(0.01))), Err(SamplingError::Limit(10)));
     assert!(with(&|_| ()).is_ok());
 }
+
+/// In f32 a position's rounding is no longer small beside a gap, on straight lines above all. Steps must not be cut in half
+/// by it, nor stand still: the counts are those of f64, grading comes to an end, and no place is sampled twice.
+#[test]
+fn single_precision_takes_no_more_samples() {
+    let wave = cubic([[0.0, 0.0], [20.0, 40.0], [50.0, -30.0], [70.0, 10.0]]);
+    let loops = cubic([[5.0, 3.0], [5.0, 0.0], [1.0, 5.0], [5.0, 3.0]]);
+    let twist = vec![
+        cubic([[2.0, 1.0], [0.0, 2.0], [2.0, 0.0], [6.0, 3.0]]),
+        cubic([[6.0, 3.0], [1.0, 6.0], [6.0, 2.0], [5.0, 0.0]]),
+    ];
+    let drawings: [Strokes; 4] = [
+        vec![open(vec![wave]), stick([0.0, 20.0], [60.0, -5.0])],
+        vec![ellipse(0.0, 0.0, 8.0, 3.0), stick([-4.0, 0.0], [-4.0, 1.0]), stick([4.0, 1.0], [5.0, 0.0])],
+        vec![closed(vec![loops])],
+        vec![closed(vec![loops]), open(twist)],
+    ];
+    fn count<S: Scalar + Default>(strokes: &[Stroke], epsilon: f64, grading: Option<f64>) -> usize {
+        let model = Model::<S>::new(&rounded::<S>(strokes), 1e-2);
+        let options = SamplingOptions { grading: grading.map(S::from_f64), ..model.options(epsilon) };
+        let samples = model.sample(&options);
+        for (a, b) in gaps(&model, &samples) {
+            assert!(a.point != b.point || samples.len() == 1, "twice: {a:?} {b:?}");
+        }
+        samples.len()
+    }
+    for (i, strokes) in drawings.iter().enumerate() {
+        for epsilon in [0.3, 0.5, 1.0] {
+            let (single, double) = (count::<f32>(strokes, epsilon, None), count::<f64>(strokes, epsilon, None));
+            assert!(single <= double + double / 100 + 1, "drawing {i} at {epsilon}: {single} in f32, {double} in f64");
+            count::<f32>(strokes, epsilon, Some(1.5));
+        }
+    }
+}

@@ -16,7 +16,9 @@
 //!   point lies between), τ being the tolerance and r the smallest radius;
 //! * the middle medial point lies off the chord of the other two by more than 2τr, or that chord is longer than r/2;
 //!
-//! and the cell still matters: h is above the floor of all lengths, and its radii are not above every lfs of the drawing.
+//! and the cell still matters (h is above the floor of all lengths, and its radii are not above every lfs of the drawing) and
+//! is not explained by two strokes: where just one stroke lies opposite, as in a channel, a cusp or an acute crossing, the
+//! axis runs smoothly between them, and only its distance from the chord counts (`docs/mathematics.md`, section 8).
 //! The tolerance is relative to the radius, because |p − m| ≥ r for every p ∈ C: an error below τ·r is a relative error of
 //! lfs below τ. The criterion is an estimate; what it has proved is tested against truth (`docs/accuracy.md`).
 

@@ -79,6 +79,10 @@ pub fn next<S: Scalar, F: FeatureSize<S>>(
         let margin = S::one() + &S::unit_roundoff().mul_pow2(8);
         next = Next { pos: reaches(run, s, &here, &(min.clone() * &margin)), bound: Bound::Min };
     }
+    // A step must lead on, whatever rounding does to a bound.
+    if next.pos <= *s {
+        next.pos = run.advance(s, &run.curve.noise.clone().mul_pow2(2));
+    }
     next
 }
 
@@ -189,8 +193,11 @@ fn leaves<S: Scalar>(run: &Run<'_, S>, from: &Pos<S>, centre: &Point<S>, radius:
         return stop.clone();
     }
     let width = radius.clone() * &precision::<S>();
+    // Nothing on the way is farther than the way is long; a hair less, so that rounding does not lead outside. Where a
+    // position's rounding is no longer small beside the radius, as in f32 on a straight line, a hair is not enough.
+    let shares = [precision::<S>().half(), S::one().mul_pow2(-10), S::one().half()];
     let mut inner = from.clone();
-    for _ in 0..STEPS {
+    'march: for _ in 0..STEPS {
         if inner >= *stop {
             return stop.clone();
         }
@@ -198,19 +205,21 @@ fn leaves<S: Scalar>(run: &Run<'_, S>, from: &Pos<S>, centre: &Point<S>, radius:
         if left <= width {
             break;
         }
-        // Nothing on the way is farther than the way is long; a hair less, so that rounding does not lead outside.
-        let p = run.advance(&inner, &(left * &(S::one() - &precision::<S>().half())));
-        if run.point(&p).distance(centre) >= *radius {
-            break;
+        for share in &shares {
+            let p = run.advance(&inner, &(left.clone() * &(S::one() - share)));
+            if run.point(&p).distance(centre) < *radius {
+                inner = p;
+                continue 'march;
+            }
         }
-        inner = p;
+        break;
     }
     inner.min_of(stop)
 }
 
 /// The first position (outer end of a bracket) at which the distance from `centre` has reached a radius.
 fn reaches<S: Scalar>(run: &Run<'_, S>, from: &Pos<S>, centre: &Point<S>, radius: &S) -> Pos<S> {
-    let width = radius.clone() * &precision::<S>();
+    let width = (radius.clone() * &precision::<S>()).max(run.curve.noise.clone());
     let mut p = leaves(run, from, centre, radius, &run.end);
     for _ in 0..STEPS {
         if p >= run.end || run.point(&p).distance(centre) >= *radius {

@@ -95,6 +95,15 @@ impl<S: Scalar> Cubic<S> {
         (Self::new(p0, q0, r0, b.clone()), Self::new(b, r1, q2, p3))
     }
 
+    /// Moves one end (side 0 or 1) to a point and its handle along with it, so that the tangent there stays what it was.
+    pub fn move_end(&mut self, side: usize, to: Point<S>) {
+        let [a, b, c, d] = &mut self.points;
+        let (end, handle) = if side == 0 { (a, b) } else { (d, c) };
+        let by = to.minus(end);
+        *handle = handle.plus_scaled(&S::one(), &by);
+        *end = to;
+    }
+
     /// The same curve run through backwards.
     pub fn reversed(&self) -> Self {
         let [p0, p1, p2, p3] = self.points.clone();

@@ -178,10 +178,10 @@ fn segments_point<S: Scalar>(segments: &[Segment<S>], e: Option<EndId>) -> Optio
     segments.get(e.segment() as usize).map(|s| s.end_point(e.side()).clone())
 }
 
-fn set_end_point<S>(segments: &mut [Segment<S>], e: EndId, p: Point<S>) {
+fn set_end_point<S: Scalar>(segments: &mut [Segment<S>], e: EndId, p: Point<S>) {
     if let Some(s) = segments.get_mut(e.segment() as usize) {
-        let [a, _, _, d] = &mut s.cubic.points;
-        *(if e.side() == 0 { a } else { d }) = p;
+        s.cubic.move_end(e.side(), p);
+        s.power = s.cubic.power_basis();
     }
 }
 

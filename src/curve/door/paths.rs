@@ -1,6 +1,6 @@
 //! Steps 2 to 4 of the door: from one path of the drawing to segments.
 //!
-//! Short segments are dropped and their neighbours snapped together, paths are closed, straight cubics become lines of
+//! Short segments are dropped and their neighbours snapped together (a handle moves with its end), paths are closed, straight cubics become lines of
 //! uniform speed from each point where they turn back to the next, cubics with an exact cusp are split there.
 
 use super::{CurveError, Door, PathInput, index_of};
@@ -46,7 +46,7 @@ impl<S: Scalar> Door<'_, S> {
                 && let Some(end) = &last
             {
                 self.note_snap(end, cubic.start());
-                cubic.points[0] = end.clone();
+                cubic.move_end(0, end.clone());
             }
             last = Some(cubic.end().clone());
             self.take_cubic(path, k, cubic, segments)?;
@@ -83,7 +83,8 @@ impl<S: Scalar> Door<'_, S> {
         if start.distance(&end) <= self.short() {
             self.note_snap(&start, &end);
             if let Some(last) = segments.items_mut().last_mut() {
-                last.cubic.points[3] = start;
+                last.cubic.move_end(1, start);
+                last.power = last.cubic.power_basis();
             }
             if !input.closed {
                 self.report.closed += 1;

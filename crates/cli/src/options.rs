@@ -243,6 +243,8 @@ pub(crate) struct ReproduceArgs {
 /// Experiments of `reproduce`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ExperimentName {
+    /// Error and time against steps per cubic
+    Table1,
     /// Time, and what the hull test and the quintic solver save
     Table2,
     /// All of them

@@ -12,16 +12,19 @@
 //! | [`plot`] | plots on logarithmic axes, as SVG |
 //! | [`shard`] | running some of the units, keeping what they found, putting it together |
 //! | [`source`] | the curves that an experiment is about |
+//! | [`table1`] | Table 1: error and time against steps; [`prototype`] is [OMW16] re-created |
 //! | [`table2`] | Table 2: hull test and quintic solver; [`shrinking`] is the paper's method, [`companion`] the general solver |
 //!
 //! What the paper prints is kept beside what is computed, in the module of its table.
 
 pub mod companion;
 pub mod plot;
+pub mod prototype;
 pub mod report;
 pub mod shard;
 pub mod shrinking;
 pub mod source;
+pub mod table1;
 pub mod table2;
 
 pub use report::Report;

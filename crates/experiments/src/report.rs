@@ -52,6 +52,12 @@ impl Cell {
         Self::Text(text.into())
     }
 
+    /// A count that a unit found; NaN is an empty cell.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts are small and not negative")]
+    pub fn count(value: f64) -> Self {
+        if value.is_nan() { Self::Empty } else { Self::Count(value as u64) }
+    }
+
     /// A number; NaN is an empty cell.
     pub fn number(value: f64) -> Self {
         if value.is_nan() { Self::Empty } else { Self::Number(value) }

@@ -123,17 +123,17 @@ impl Experiment for Table2 {
                 Cell::text(&source.name),
                 Cell::text(if source.shipped { "measured (shipped drawing)" } else { "measured" }),
                 Cell::Count(cubics),
-                Cell::Count(3 * cubics),
+                Cell::Count(4 * cubics),
             ];
             row.extend([ours, hull, none, companion, none / hull, companion / hull, hull / ours].map(Cell::number));
-            row.push(Cell::number(differ));
+            row.push(Cell::count(differ));
             table.rows.push(row);
         }
         for (name, points, [hull, none, companion]) in PRINTED {
             let mut row = vec![
                 Cell::text(name),
                 Cell::text("printed"),
-                Cell::Count(u64::from(points) / 3),
+                Cell::Count(u64::from(points) / 4),
                 Cell::Count(u64::from(points)),
                 Cell::Empty,
             ];
@@ -159,9 +159,8 @@ fn notes(shipped: bool) -> Vec<String> {
         "*lfs_differs* counts feet at which lfs of the three variants of the one method differs by more than 1e-4 of the \
          diagonal."
             .to_owned(),
-        "What the paper prints as segment count (68, 108, 152) is the number of control points: BUNNY has 22 cubics (its \
-         path data end in a line), COMPLEX 36, SPIRAL 51 less a line. Here `control_points` is three times the cubics; for \
-         printed rows `cubics` is the printed count over three, rounded down."
+        "What the paper prints as segment count (68, 108, 152) is the number of control points, four a cubic: its BUNNY, \
+         COMPLEX and SPIRAL have 17, 27 and 38 cubics."
             .to_owned(),
         "Ratios against *hull_test*. Without the hull test every segment is solved for, so that ratio grows with the number of \
          segments and with how cheap the test is against the solver: a faster quintic solver makes it smaller, and so does \

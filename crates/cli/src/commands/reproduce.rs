@@ -11,6 +11,7 @@ use std::path::Path;
 
 use fsample_experiments::shard::{self, Part, Shard};
 use fsample_experiments::source::Source;
+use fsample_experiments::table1::Table1;
 use fsample_experiments::table2::Table2;
 use fsample_experiments::{Experiment, Report};
 use lineart::drawing::Drawing;
@@ -35,6 +36,7 @@ fn experiments(args: &ReproduceArgs) -> Result<Vec<Box<dyn Experiment>>, Failure
     let mut list: Vec<Box<dyn Experiment>> = Vec::new();
     for name in args.names() {
         match name {
+            ExperimentName::Table1 => list.push(Box::new(Table1::new(curves.clone(), args.quick))),
             ExperimentName::Table2 => list.push(Box::new(Table2::new(curves.clone(), args.quick))),
             // Names of many were told apart already.
             ExperimentName::All => {}

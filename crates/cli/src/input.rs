@@ -67,7 +67,8 @@ fn parse_points(text: &str) -> Result<Vec<Point<f64>>, (usize, String)> {
     Ok(points)
 }
 
-fn text(file: &str) -> Result<String, Failure> {
+/// Reads a text file; `-` is standard input.
+pub(crate) fn text(file: &str) -> Result<String, Failure> {
     let read = if file == "-" { text_in::read(io::stdin().lock()) } else { text_in::read_file(Path::new(file)) };
     read.map_err(|error| Failure::input(file, error))
 }

@@ -8,6 +8,7 @@ mod commands;
 mod engine;
 mod errors;
 mod input;
+mod number_in;
 mod options;
 mod output;
 mod progress;

@@ -4,6 +4,7 @@
 //! checked in [`ModelArgs::check`] and [`SamplingArgs::bounds`], so that the message can say what would be right. All of
 //! these are usage errors, exit code 2; lengths can only be compared once the drawing says how long a millimetre is.
 
+use std::ffi::OsString;
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -48,6 +49,8 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     Compare(CompareArgs),
     Reproduce(ReproduceArgs),
+    Roots(RootsArgs),
+    Nearest(NearestArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }
@@ -260,6 +263,62 @@ impl ReproduceArgs {
         };
         ExperimentName::value_variants().iter().copied().filter(asked).collect()
     }
+}
+
+/// Find the real roots of polynomials.
+///
+/// Each line holds the coefficients of one polynomial, up to 16, in ascending powers, separated by blanks or commas: decimal,
+/// or hexadecimal as C99 writes it (0x1.8p-3). Blank lines and # comments are skipped.
+///
+/// The table line,root,lower,upper,kind has a row for each root: lower and upper enclose it; kind is simple, even (a double
+/// root, or two that cannot be told apart), odd (a triple root, or three), or cluster:K (about K roots with multiplicity).
+/// Lines count from 1. A polynomial that is zero everywhere has no row, but a warning.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  echo 6 -29 16 16 | fsample roots                        1/4 and 3/4, the roots in [0, 1]
+  fsample roots polynomials.txt --interval -2,0x1p4
+  fsample roots polynomials.txt --all > roots.csv")]
+pub(crate) struct RootsArgs {
+    /// The polynomials; - is standard input
+    #[arg(value_name = "FILE", default_value = "-")]
+    pub(crate) file: String,
+    /// Look for roots between A and B, ends included [default: 0,1]
+    #[arg(long, value_name = "A,B", conflicts_with = "all", allow_hyphen_values = true)]
+    pub(crate) interval: Option<String>,
+    /// Find all real roots
+    #[arg(long)]
+    pub(crate) all: bool,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    /// No warnings on standard error
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Find the points of a drawing that are closest to given points.
+///
+/// The drawing is taken as it is drawn: every cubic of the file, kinks and all. Of equally close points that of the first
+/// path and segment is taken.
+///
+/// A table x,y,path,segment,t,px,py,distance goes to standard output, a row for each query in their order: the query, where
+/// on the drawing (t is the parameter of the cubic), the point there, and how far away it is.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  fsample nearest drawing.svg 10,20 -3,4.5
+  fsample nearest drawing.svg - < points.txt              one \"x y\" or \"x,y\" per line")]
+pub(crate) struct NearestArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArg,
+    /// Points to ask about; - reads a list from standard input
+    #[arg(value_name = "X,Y", required = true)]
+    pub(crate) queries: Vec<String>,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    /// No warnings on standard error
+    #[arg(long)]
+    pub(crate) quiet: bool,
 }
 
 /// Print a completion script for a shell.
@@ -545,7 +604,27 @@ impl PlotterArgs {
 
 /// Reads the command line.
 pub(crate) fn parse() -> Result<Command, Failure> {
-    Cli::try_parse().map(|cli| cli.command).map_err(|error| Failure::from_clap(&error))
+    let arguments = queries_as_values(std::env::args_os());
+    Cli::try_parse_from(arguments).map(|cli| cli.command).map_err(|error| Failure::from_clap(&error))
+}
+
+/// The command line with a blank before queries like `-5,3`, which clap would take for options.
+fn queries_as_values(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut arguments: Vec<OsString> = arguments.collect();
+    if arguments.get(1).is_some_and(|command| command == "nearest") {
+        for argument in arguments.iter_mut().skip(2) {
+            let is_query = argument
+                .to_str()
+                .and_then(|text| text.strip_prefix('-'))
+                .is_some_and(|text| text.contains(',') && text.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
+            if is_query {
+                let mut value = OsString::from(" ");
+                value.push(&*argument);
+                *argument = value;
+            }
+        }
+    }
+    arguments
 }
 
 /// The command line as data, for completions and manual pages.

@@ -6,7 +6,9 @@ mod inspect;
 mod lfs;
 mod man;
 mod medial;
+mod nearest;
 mod reproduce;
+mod roots;
 mod sample;
 
 use crate::errors::Failure;
@@ -21,6 +23,8 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Inspect(args) => inspect::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Roots(args) => roots::run(&args),
+        Command::Nearest(args) => nearest::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
     }

@@ -66,12 +66,15 @@ pub struct SamplingOptions<S> {
     pub singular_floor: S,
     /// Floor everywhere else, relative to the diagonal (1e-7).
     pub floor: S,
+    /// Spread the slack of the last gap of a run over all its gaps ([`spread`]). Without it samples are as far apart as the
+    /// bounds allow, which is what a study of a bound needs, and the last gap is whatever is left.
+    pub even: bool,
     /// Largest number of samples on one path.
     pub limit: u32,
 }
 
 impl<S: Scalar> Default for SamplingOptions<S> {
-    /// ε = 1/2, no other bound, lfs good to 1e-3.
+    /// ε = 1/2, no other bound, evenly spread, lfs good to 1e-3.
     fn default() -> Self {
         let thousandth = S::ratio(1, 1000);
         Self {
@@ -84,6 +87,7 @@ impl<S: Scalar> Default for SamplingOptions<S> {
             tolerance: thousandth.clone(),
             singular_floor: thousandth,
             floor: S::ratio(1, 10_000_000),
+            even: true,
             limit: 10_000_000,
         }
     }

@@ -45,7 +45,7 @@ pub fn inner_samples<S: Scalar, F: FeatureSize<S>>(
     let base = out.items().len();
     let spreader = Spreader { run, features, contacts, options, cap, base, stretches: Stretches::default() };
     let first = spreader.trial(&S::one(), out)?;
-    if first.gaps > 1 && first.share < S::ratio(15, 16) {
+    if options.even && first.gaps > 1 && first.share < S::ratio(15, 16) {
         let gaps = first.gaps;
         let target = |share: &S, gaps: u32| {
             let n = S::int(i32::try_from(gaps).unwrap_or(i32::MAX));

@@ -6,7 +6,7 @@
 //! | code | meaning |
 //! |---|---|
 //! | 0 | done |
-//! | 1 | the answer is no (commands that ask a question; none of those here do) |
+//! | 1 | the answer is no (commands that ask a question, such as `reconstruct --compare`) |
 //! | 2 | usage: options that make no sense, alone or together |
 //! | 3 | bad input |
 //! | 4 | output could not be written |
@@ -24,6 +24,11 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
+    /// The answer to what was asked is no.
+    pub(crate) fn no(message: impl Display) -> Self {
+        Self { code: 1, message: message.to_string() }
+    }
+
     /// Options that make no sense.
     pub(crate) fn usage(message: impl Display) -> Self {
         Self { code: 2, message: message.to_string() }

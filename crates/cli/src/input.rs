@@ -44,17 +44,42 @@ pub(crate) fn points(file: &str) -> Result<Vec<Point<f64>>, Failure> {
     parse_points(&text(file)?).map_err(|(line, cause)| Failure::input(file, format!("line {line}: {cause}")))
 }
 
+/// Reads edges, two point numbers a line (`a,b` or `a b`), with the number of the line of each. Empty lines, `#` comments
+/// and one header line are skipped.
+pub(crate) fn edges(file: &str) -> Result<Vec<(usize, [usize; 2])>, Failure> {
+    let text = text(file)?;
+    let mut edges = Vec::new();
+    let mut header_may_follow = true;
+    for (line, content) in content_lines(&text) {
+        let numbers: Vec<Option<usize>> = fields(content).map(|field| field.parse().ok()).collect();
+        match numbers.as_slice() {
+            [Some(a), Some(b)] => edges.push((line, [*a, *b])),
+            [None, ..] if header_may_follow => {}
+            _ => return Err(Failure::input(file, format!("line {line}: “{content}” is not an edge: write “a,b”"))),
+        }
+        header_may_follow = false;
+    }
+    Ok(edges)
+}
+
+/// Lines with something other than a comment on them, with their numbers from 1.
+fn content_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    (1..).zip(text.lines()).filter_map(|(line, content)| {
+        let content = content.split('#').next().unwrap_or_default().trim();
+        (!content.is_empty()).then_some((line, content))
+    })
+}
+
+/// What stands between commas and blanks.
+fn fields(content: &str) -> impl Iterator<Item = &str> {
+    content.split(|c: char| c == ',' || c.is_whitespace()).filter(|field| !field.is_empty())
+}
+
 fn parse_points(text: &str) -> Result<Vec<Point<f64>>, (usize, String)> {
     let mut points = Vec::new();
     let mut header_may_follow = true;
-    for (line, content) in (1..).zip(text.lines()) {
-        let content = content.split('#').next().unwrap_or_default().trim();
-        if content.is_empty() {
-            continue;
-        }
-        let fields: Vec<_> =
-            content.split(|c: char| c == ',' || c.is_whitespace()).filter(|field| !field.is_empty()).collect();
-        let numbers: Vec<Option<f64>> = fields.iter().map(|field| field.parse().ok()).collect();
+    for (line, content) in content_lines(text) {
+        let numbers: Vec<Option<f64>> = fields(content).map(|field| field.parse().ok()).collect();
         match numbers.as_slice() {
             [Some(x), Some(y)] if x.is_finite() && y.is_finite() => points.push(Point::new(*x, *y)),
             [Some(_), Some(_)] => return Err((line, format!("“{content}” is not a finite point"))),

@@ -12,6 +12,7 @@ mod number_in;
 mod options;
 mod output;
 mod progress;
+mod study_input;
 mod summary;
 
 use std::process::ExitCode;

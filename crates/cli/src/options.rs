@@ -11,8 +11,10 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use fsample_experiments::shard::Shard;
+use fsample_experiments::study::Grid;
 use lineart::drawing::Drawing;
 use lineart::export::OptionValue;
+use lineart::reconstruct::Algorithm;
 use lineart::units::Length;
 
 use crate::engine::{Bounds, Density, ModelOptions};
@@ -48,6 +50,7 @@ pub(crate) enum Command {
     Lfs(LfsArgs),
     Inspect(InspectArgs),
     Compare(CompareArgs),
+    Reconstruct(ReconstructArgs),
     Reproduce(ReproduceArgs),
     Roots(RootsArgs),
     Nearest(NearestArgs),
@@ -203,6 +206,54 @@ pub(crate) enum CompareFormat {
     Json,
 }
 
+/// Find the curves that points lie on.
+///
+/// Of points without order (one "x y" or "x,y" per line), finds which are neighbours along a curve. Nine published
+/// algorithms are offered, and accord, which is our own; variants have names of their own. Each names the edges that it
+/// finds as pairs of line numbers of points, from 0; among equal points the first stands for all.
+///
+/// Without -o, a table a,b goes to standard output; with --algorithm all it is algorithm,a,b.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  fsample reconstruct points.txt --algorithm connect2d > edges.csv
+  fsample reconstruct points.txt --algorithm all -o all.svg
+  fsample reconstruct points.txt --algorithm crust --compare true-edges.csv
+  fsample reconstruct points.txt --algorithm conservative-crust --disk-factor 0.8
+
+With --compare the exit code is 1 if the edges of an algorithm differ.")]
+pub(crate) struct ReconstructArgs {
+    /// Points, one "x y" or "x,y" per line; - is standard input
+    #[arg(value_name = "POINTS")]
+    pub(crate) file: String,
+    /// The algorithm; all: the nine and accord
+    #[arg(long, short, value_name = "NAME", value_parser = algorithm_names())]
+    pub(crate) algorithm: String,
+    /// True edges, a table a,b: what is missing and what is extra is said
+    #[arg(long, value_name = "EDGES")]
+    pub(crate) compare: Option<String>,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    /// Nearest points that hnn-crust and hnn-crust-either look at [default: 14]
+    #[arg(long, value_name = "N", help_heading = "Parameters", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) candidates: Option<u32>,
+    /// Radius of conservative-crust's disks in half edges [default: 0.7071]
+    #[arg(long, value_name = "F", help_heading = "Parameters", allow_negative_numbers = true)]
+    pub(crate) disk_factor: Option<f64>,
+    /// Distance from the medial axis that conservative-crust-medial asks for, in edges [default: 0.46]
+    #[arg(long, value_name = "F", help_heading = "Parameters", allow_negative_numbers = true)]
+    pub(crate) medial_factor: Option<f64>,
+    /// No summary
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// The names that --algorithm takes.
+fn algorithm_names() -> clap::builder::PossibleValuesParser {
+    let names = Algorithm::ALL.iter().map(|algorithm| algorithm.name()).chain(["all"]);
+    clap::builder::PossibleValuesParser::new(names.collect::<Vec<_>>())
+}
+
 /// Compute the tables and figures of the paper again.
 ///
 /// Each experiment runs on the curves given with --curve; without, on drawings that come with the program, and its tables
@@ -232,6 +283,18 @@ pub(crate) struct ReproduceArgs {
     /// The folder for results; it is made where there is none
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
+    /// Sample sets to study beside our own (table3, figure7): “set E O N”, then N lines “x y”; may be xz-compressed
+    #[arg(long, value_name = "FILE", help_heading = "Reconstruction")]
+    pub(crate) samples: Option<PathBuf>,
+    /// Distance of the values of ε that are studied (table3, figure7), a multiple of 0.001 [default: 0.01]
+    #[arg(long, value_name = "S", help_heading = "Reconstruction", allow_negative_numbers = true)]
+    pub(crate) epsilon_step: Option<f64>,
+    /// Starts of the samples of each ε (table3, figure7) [default: 100]
+    #[arg(long, value_name = "N", help_heading = "Reconstruction", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) starts: Option<u32>,
+    /// PNG images of shapes, or folders of them (figure6)
+    #[arg(long, value_name = "FILES", num_args = 1.., help_heading = "Reconstruction")]
+    pub(crate) masks: Vec<PathBuf>,
     /// A small version of the experiment, in seconds
     #[arg(long)]
     pub(crate) quick: bool,
@@ -250,11 +313,28 @@ pub(crate) enum ExperimentName {
     Table1,
     /// Time, and what the hull test and the quintic solver save
     Table2,
+    /// How far nine reconstruction algorithms reach under ε-sampling, on the curve named complex or else the first
+    Table3,
+    /// Exact reconstructions of real-world outlines
+    Figure6,
+    /// Exact reconstructions by ε, on the same curve as table3
+    Figure7,
     /// All of them
     All,
 }
 
 impl ReproduceArgs {
+    /// Values of ε and starts of the study.
+    pub(crate) fn grid(&self) -> Result<Grid, Failure> {
+        let (step, starts) = if self.quick { (0.05, 10) } else { (0.01, 100) };
+        let step = self.epsilon_step.unwrap_or(step);
+        let Some(thousandths) = (1..=500_u32).find(|n| (f64::from(*n) - 1000.0 * step).abs() < 1e-6) else {
+            let message = format!("--epsilon-step is {step}; it is a multiple of 0.001, up to 0.5");
+            return Err(Failure::usage(message));
+        };
+        Ok(Grid::new(thousandths, self.starts.unwrap_or(starts)))
+    }
+
     /// What was asked for: each once, in the order of the paper.
     pub(crate) fn names(&self) -> Vec<ExperimentName> {
         let asked = |name: &ExperimentName| {

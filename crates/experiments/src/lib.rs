@@ -13,19 +13,29 @@
 //! | [`shard`] | running some of the units, keeping what they found, putting it together |
 //! | [`source`] | the curves that an experiment is about |
 //! | [`table1`] | Table 1: error and time against steps; [`prototype`] is [OMW16] re-created |
+//! | [`bars`] | bar charts, as SVG |
+//! | [`silhouette`], [`figure6`] | outlines of images and drawings, and their reconstruction |
+//! | [`study`] | the reconstruction study: sample sets, correctness, shares by ε |
+//! | [`table3`], [`figure7`] | the study as a table and as a plot |
 //! | [`table2`] | Table 2: hull test and quintic solver; [`shrinking`] is the paper's method, [`companion`] the general solver |
 //!
 //! What the paper prints is kept beside what is computed, in the module of its table.
 
+pub mod bars;
 pub mod companion;
+pub mod figure6;
+pub mod figure7;
 pub mod plot;
 pub mod prototype;
 pub mod report;
 pub mod shard;
 pub mod shrinking;
+pub mod silhouette;
 pub mod source;
+pub mod study;
 pub mod table1;
 pub mod table2;
+pub mod table3;
 
 pub use report::Report;
 

@@ -8,8 +8,9 @@ use lineart::export::number::trimmed;
 const SIZE: [f64; 2] = [640.0, 420.0];
 const MARGINS: [f64; 4] = [70.0, 190.0, 34.0, 50.0];
 
-/// Colours that stay apart for colour-blind readers (Okabe and Ito 2008).
-const COLOURS: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999999"];
+/// Colours that stay apart for colour-blind readers (Okabe and Ito 2008), and two more.
+const COLOURS: [&str; 10] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999999", "#882255", "#b8a000"];
 
 /// An axis.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use lineart::export::json::JsonText;
 use lineart::export::number::{JsonNumber, Number};
 
+use crate::bars::Bars;
 use crate::plot::Plot;
 
 /// What an experiment came to: tables and plots.
@@ -16,6 +17,8 @@ pub struct Report {
     pub tables: Vec<Table>,
     /// Plots.
     pub plots: Vec<Plot>,
+    /// Bar charts.
+    pub bars: Vec<Bars>,
 }
 
 /// A table.
@@ -185,6 +188,7 @@ impl Report {
             vec![(format!("{}.md", self.name), self.markdown()), (format!("{}.json", self.name), self.json())];
         files.extend(self.tables.iter().map(|table| (format!("{}.csv", table.name), table.csv())));
         files.extend(self.plots.iter().map(|plot| (format!("{}.svg", plot.name), plot.svg())));
+        files.extend(self.bars.iter().map(|bars| (format!("{}.svg", bars.name), bars.svg())));
         files
     }
 }
@@ -219,7 +223,7 @@ mod tests {
             table.markdown(),
             "## A, b\n| name | value | count |\n|---|---|---|\n| a,b\\|\"c\" | 0.333 | 7 |\n| d | – | inf |\n\nA note.\n"
         );
-        let report = Report { name: "t", tables: vec![table], plots: vec![] };
+        let report = Report { name: "t", tables: vec![table], plots: vec![], bars: vec![] };
         let json: serde_json::Value = serde_json::from_str(&report.json()).expect("JSON");
         assert_eq!(json["tables"][0]["rows"][0][1], 1.0 / 3.0, "all digits");
         assert!(json["tables"][0]["rows"][1][2].is_null(), "JSON knows no infinity");

@@ -25,10 +25,7 @@ pub struct Source {
 impl Source {
     /// The curves of a drawing.
     pub fn new(drawing: &Drawing, shipped: bool) -> Self {
-        let file = std::path::Path::new(&drawing.source);
-        let name = file.file_stem().map_or_else(|| drawing.source.clone(), |stem| stem.to_string_lossy().into_owned());
-        // Names stand in tables: no separators of theirs.
-        let name = name.replace([',', '|', '\n', '\r', '"', '='], "_");
+        let name = table_name(&drawing.source);
         Self { name, shipped, paths: drawing.paths.iter().map(|path| (path.closed, path.cubics.clone())).collect() }
     }
 
@@ -67,23 +64,26 @@ impl Source {
 
     /// Name and content in one word: the same for the same control points, to the bit, and for hardly any others.
     pub fn fingerprint(&self) -> String {
-        // FNV-1a, 64 bits (Fowler, Noll and Vo): good enough to notice a mix-up.
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-        let mut take = |bytes: &[u8]| {
-            for byte in bytes {
-                hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-            }
-        };
-        for (closed, cubics) in &self.paths {
-            take(&[u8::from(*closed), 0xff]);
-            for p in cubics.iter().flat_map(|c| &c.points) {
-                take(&p.x.to_bits().to_le_bytes());
-                take(&p.y.to_bits().to_le_bytes());
-            }
-        }
+        let bytes = self.paths.iter().flat_map(|(closed, cubics)| {
+            let coordinates = cubics.iter().flat_map(|c| &c.points).flat_map(|p| [p.x, p.y]);
+            [u8::from(*closed), 0xff].into_iter().chain(coordinates.flat_map(|v| v.to_bits().to_le_bytes()))
+        });
+        let hash = fnv(bytes);
         let mut word = self.name.clone();
         // Writing to a string cannot fail.
         let _ = write!(word, "#{hash:016x}");
         word
     }
+}
+
+/// FNV-1a, 64 bits (Fowler, Noll and Vo): good enough to notice a mix-up.
+pub(crate) fn fnv(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+/// The name that tables give to what is in a file: without folder and extension, and without separators of tables.
+pub(crate) fn table_name(file: &str) -> String {
+    let stem = std::path::Path::new(file).file_stem();
+    let name = stem.map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned());
+    name.replace([',', '|', '\n', '\r', '"', '='], "_")
 }

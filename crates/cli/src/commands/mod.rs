@@ -7,6 +7,7 @@ mod lfs;
 mod man;
 mod medial;
 mod nearest;
+mod reconstruct;
 mod reproduce;
 mod roots;
 mod sample;
@@ -22,6 +23,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Lfs(args) => lfs::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Reconstruct(args) => reconstruct::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Roots(args) => roots::run(&args),
         Command::Nearest(args) => nearest::run(&args),

@@ -9,10 +9,15 @@ use std::io;
 use std::num::NonZero;
 use std::path::Path;
 
+use fsample_experiments::figure6::Figure6;
+use fsample_experiments::figure7::Figure7;
 use fsample_experiments::shard::{self, Part, Shard};
+use fsample_experiments::silhouette::Outline;
 use fsample_experiments::source::Source;
+use fsample_experiments::study::Study;
 use fsample_experiments::table1::Table1;
 use fsample_experiments::table2::Table2;
+use fsample_experiments::table3::Table3;
 use fsample_experiments::{Experiment, Report};
 use lineart::drawing::Drawing;
 use lineart::export::atomic;
@@ -23,11 +28,24 @@ use crate::input;
 use crate::options::{ExperimentName, ReproduceArgs};
 use crate::output::to_stdout;
 use crate::progress::Progress;
+use crate::study_input;
 
 /// Drawings that come with the program, for runs without `--curve`.
 const SHIPPED: [(&str, &str); 2] = [
     ("leaf_01.svg", include_str!("../../../../drawings/leaf_01.svg")),
     ("bee.svg", include_str!("../../../../drawings/bee.svg")),
+];
+
+/// Those and the others, for outlines.
+const ALL_SHIPPED: [(&str, &str); 8] = [
+    SHIPPED[0],
+    SHIPPED[1],
+    ("celtic_triskell_01.svg", include_str!("../../../../drawings/celtic_triskell_01.svg")),
+    ("elephant_outline_matthe_r.svg", include_str!("../../../../drawings/elephant_outline_matthe_r.svg")),
+    ("hand_dennis_rutjes_01.svg", include_str!("../../../../drawings/hand_dennis_rutjes_01.svg")),
+    ("seal_sek_.svg", include_str!("../../../../drawings/seal_sek_.svg")),
+    ("sleeping_cat_ron_golan_01.svg", include_str!("../../../../drawings/sleeping_cat_ron_golan_01.svg")),
+    ("hook.svg", include_str!("../../../../drawings/hook.svg")),
 ];
 
 /// The experiments that were asked for, ready to run.
@@ -37,12 +55,46 @@ fn experiments(args: &ReproduceArgs) -> Result<Vec<Box<dyn Experiment>>, Failure
     for name in args.names() {
         match name {
             ExperimentName::Table1 => list.push(Box::new(Table1::new(curves.clone(), args.quick))),
+            ExperimentName::Table3 => list.push(Box::new(Table3::new(study(args, &curves)?))),
+            ExperimentName::Figure6 => list.push(Box::new(figure6(args, &curves)?)),
+            ExperimentName::Figure7 => list.push(Box::new(Figure7::new(study(args, &curves)?))),
             ExperimentName::Table2 => list.push(Box::new(Table2::new(curves.clone(), args.quick))),
             // Names of many were told apart already.
             ExperimentName::All => {}
         }
     }
     Ok(list)
+}
+
+/// The reconstruction study: of the paper's curve if it is among those given, else of the first; of the one that comes with
+/// the program if there is none and no sample sets either.
+fn study(args: &ReproduceArgs, curves: &[Source]) -> Result<Study, Failure> {
+    let given = args.samples.as_deref().map(study_input::sets).transpose()?;
+    let curve = match (args.curve.is_empty(), &given) {
+        (false, _) => curves.iter().find(|curve| curve.name == "complex").or(curves.first()).cloned(),
+        (true, Some(_)) => None,
+        (true, None) => Some(shipped("hook.svg", include_str!("../../../../drawings/hook.svg"))?),
+    };
+    Ok(Study::new(curve, args.grid()?, given))
+}
+
+/// Outlines: of the images and drawings given, or of all drawings that come with the program.
+fn figure6(args: &ReproduceArgs, curves: &[Source]) -> Result<Figure6, Failure> {
+    let drawings = match (args.curve.is_empty(), args.masks.is_empty()) {
+        (false, _) => curves.to_vec(),
+        (true, false) => Vec::new(),
+        (true, true) => ALL_SHIPPED.iter().map(|(name, text)| shipped(name, text)).collect::<Result<_, _>>()?,
+    };
+    let mut outlines = study_input::masks(&args.masks)?;
+    outlines.extend(drawings.iter().flat_map(Outline::of_drawing));
+    if outlines.is_empty() {
+        return Err(Failure::usage("figure6 needs closed paths, and the drawings given have none"));
+    }
+    Ok(Figure6::new(outlines, args.curve.is_empty() && args.masks.is_empty()))
+}
+
+fn shipped(name: &str, text: &str) -> Result<Source, Failure> {
+    svg::read_str(text, name).map(|drawing| Source::new(&drawing, true)).map_err(Failure::read)
 }
 
 /// Runs the command.
@@ -78,10 +130,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
 /// The curves: those given, or those shipped.
 fn curves(args: &ReproduceArgs) -> Result<Vec<Source>, Failure> {
     if args.curve.is_empty() {
-        return SHIPPED
-            .iter()
-            .map(|(name, text)| svg::read_str(text, name).map(|d| Source::new(&d, true)).map_err(Failure::read))
-            .collect();
+        return SHIPPED.iter().map(|(name, text)| shipped(name, text)).collect();
     }
     let read = |file: &String| input::drawing(file, args.quiet).map(|drawing: Drawing| Source::new(&drawing, false));
     let curves = args.curve.iter().map(read).collect::<Result<Vec<_>, _>>()?;

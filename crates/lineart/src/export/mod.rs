@@ -14,6 +14,7 @@
 
 pub mod atomic;
 pub mod csv;
+pub mod edges;
 pub mod gcode;
 pub mod json;
 pub mod number;

@@ -9,6 +9,7 @@
 //! | [`number`] | the number |
 //! | [`ladder`] | precisions chosen at run time |
 //! | [`predicate`] | exact orientation and in-circle for these numbers |
+//! | [`truth`] | the table of allowed errors, one entry for each public function of the kernel |
 //!
 //! **Building.** Needs GMP and MPFR with headers (Debian: `apt-get install libgmp-dev libmpfr-dev`) and is no default member
 //! of the workspace for that reason. Tests: `cargo test -p feature-sampling-mpfr`. rug is held at 1.19.2 and
@@ -20,5 +21,6 @@
 pub mod ladder;
 pub mod number;
 pub mod predicate;
+pub mod truth;
 
 pub use number::Mpfr;

@@ -11,6 +11,7 @@
 //! | [`report`] | tables with notes, and their Markdown, CSV and JSON |
 //! | [`plot`] | plots on logarithmic axes, as SVG |
 //! | [`shard`] | running some of the units, keeping what they found, putting it together |
+//! | [`clock`] | time on one core |
 //! | [`source`] | the curves that an experiment is about |
 //! | [`table1`] | Table 1: error and time against steps; [`prototype`] is [OMW16] re-created |
 //! | [`bars`] | bar charts, as SVG |
@@ -22,6 +23,7 @@
 //! What the paper prints is kept beside what is computed, in the module of its table.
 
 pub mod bars;
+pub mod clock;
 pub mod companion;
 pub mod figure6;
 pub mod figure7;

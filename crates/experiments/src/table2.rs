@@ -6,11 +6,11 @@
 //! and the least of several times counts, so that ratios hold on a machine that is doing other things as well.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use feature_sampling::medial::Resolution;
 use feature_sampling::model::{CurveModel, MedialModel};
 
+use crate::clock::{self, Clock};
 use crate::report::{Cell, Report, Table};
 use crate::shrinking::{self, Variant, places};
 use crate::source::Source;
@@ -44,14 +44,14 @@ impl Table2 {
     /// Seconds that one variant takes, and the radii that it found at the feet of all segments.
     fn once(&self, model: &CurveModel<f64>, column: usize) -> (f64, Vec<f64>) {
         let variants = [Variant::HullTest, Variant::NoHullTest, Variant::Companion];
-        let start = Instant::now();
+        let start = Clock::start();
         let medial = match variants.get(column) {
             Some(variant) => shrinking::medial_model(model, self.steps, *variant),
             None => MedialModel::new(model, &Resolution::Steps(self.steps)),
         };
         let curve = model.curve();
         let lfs: Vec<f64> = places(&curve, self.steps).map(|(_, t, s)| medial.lfs(&s.point(&t))).collect();
-        (start.elapsed().as_secs_f64(), black_box(lfs))
+        (start.seconds(), black_box(lfs))
     }
 }
 
@@ -149,13 +149,12 @@ impl Experiment for Table2 {
 
 fn notes(shipped: bool) -> Vec<String> {
     let mut notes = vec![
-        "*hull_test*, *no_hull_test* and *companion* are the paper's method, re-created from its section 7.1 in double \
+        format!("*hull_test*, *no_hull_test* and *companion* are the paper's method, re-created from its section 7.1 in double \
          precision: closest point of all segments by the roots of a quintic, a disk that shrinks until nothing changes, the \
          nearer side kept. *companion* finds the roots as eigenvalues of the companion matrix, as a general library does, \
          with the hull test. *hierarchy* is this project's own method, with both sides kept: one traversal of a bounding \
-         hierarchy for each disk, no polynomial roots. Times are for the whole job on one core: medial polylines, index, \
-         lfs at every foot; the least of the rounds, in which the variants take turns."
-            .to_owned(),
+         hierarchy for each disk, no polynomial roots. Times are {} of the whole job on one core: medial polylines, index, \
+         lfs at every foot; the least of the rounds, in which the variants take turns.", clock::kind()),
         "*lfs_differs* counts feet at which lfs of the three variants of the one method differs by more than 1e-4 of the \
          diagonal."
             .to_owned(),

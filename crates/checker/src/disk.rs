@@ -268,7 +268,9 @@ impl Search<'_> {
             return;
         }
         let clear = disc.0.distance(self.f) - disc.1;
-        if disc.1 <= 0.3 * clear || depth > 60 {
+        // Where f all but touches the curve, pieces of the size of rounding are points; halving them leads nowhere.
+        let point = disc.1 <= 1e-14 * self.scene.drawing.diagonal;
+        if disc.1 <= 0.3 * clear || point || depth > 60 {
             self.far_maximum(cubic, t0, t1);
             return;
         }

@@ -4,6 +4,7 @@
 //! an allocator call the same functions with lent slices, as `tests/core_only.rs` shows.
 
 use crate::bezier::Cubic;
+use crate::buffer::{BufferFull, Store};
 use crate::curve::contact::{self, Contact};
 use crate::curve::door::{self, CurveBuffers, CurveError, DoorOptions, DoorReport, Entered, PathInput};
 use crate::curve::{Arc, Curve, CurveParam, Path, Segment};
@@ -87,6 +88,22 @@ impl<S: Scalar> CurveModel<S> {
         out
     }
 
+    /// The same, if there are no more than `limit` of them.
+    ///
+    /// # Errors
+    /// [`BufferFull`] where the limit is too low.
+    pub fn walk_within(
+        &self,
+        path: u32,
+        resolution: &Resolution<S>,
+        relevance: &S,
+        limit: usize,
+    ) -> Result<Vec<MedialPoint<S>>, BufferFull> {
+        let mut out = Capped { items: Vec::new(), limit };
+        medial::walk(&self.curve(), path, resolution, &self.contacts, relevance, 0, &mut out)?;
+        Ok(out.items)
+    }
+
     /// The samples of one path.
     ///
     /// # Errors
@@ -165,5 +182,33 @@ impl<S: Scalar> MedialModel<S> {
     /// lfs of a point of C.
     pub fn lfs(&self, p: &Point<S>) -> S {
         self.index().distance(p)
+    }
+}
+
+/// A vector that takes no more than so many items.
+struct Capped<T> {
+    items: Vec<T>,
+    limit: usize,
+}
+
+impl<T> Store<T> for Capped<T> {
+    fn push(&mut self, item: T) -> Result<(), BufferFull> {
+        if self.items.len() >= self.limit {
+            return Err(BufferFull { capacity: self.limit });
+        }
+        self.items.push(item);
+        Ok(())
+    }
+
+    fn items(&self) -> &[T] {
+        &self.items
+    }
+
+    fn items_mut(&mut self) -> &mut [T] {
+        &mut self.items
+    }
+
+    fn shorten(&mut self, len: usize) {
+        self.items.truncate(len);
     }
 }

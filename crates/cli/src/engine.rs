@@ -35,6 +35,8 @@ pub(crate) struct ModelOptions {
     pub(crate) tolerance: f64,
     /// Joints that turn by less are smooth, in degrees.
     pub(crate) corner_angle: f64,
+    /// Most medial points of the drawing.
+    pub(crate) max_medial_points: usize,
     /// At least 1.
     pub(crate) threads: usize,
     /// Show no progress.
@@ -85,7 +87,7 @@ impl<'d> Engine<'d> {
     /// Builds the model.
     pub(crate) fn new(drawing: &'d Drawing, options: &ModelOptions) -> Result<Self, Failure> {
         let curve = curve_model(drawing, options.corner_angle)?;
-        let medial = MedialModel::from_paths(walk_all(&curve, options));
+        let medial = MedialModel::from_paths(walk_all(drawing, &curve, options)?);
         Ok(Self { drawing, options: *options, curve, medial })
     }
 
@@ -129,7 +131,7 @@ impl<'d> Engine<'d> {
         let mut rows = Vec::new();
         for samples in sampled {
             rows.push(match samples {
-                Ok(samples) => samples.iter().map(|sample| self.sample_row(sample)).collect(),
+                Ok(samples) => samples.iter().map(|sample| self.sample_row(sample, bounds)).collect(),
                 Err(SamplingError::Limit(limit)) => {
                     let advice = "raise --max-samples, or ask for less with --min-distance";
                     let name = shown(&self.drawing.source);
@@ -141,7 +143,7 @@ impl<'d> Engine<'d> {
         Ok(self.by_path(|index| rows.get_mut(index).map(std::mem::take).unwrap_or_default()))
     }
 
-    fn sample_row(&self, sample: &Sample<f64>) -> SampleRow {
+    fn sample_row(&self, sample: &Sample<f64>, bounds: &Bounds) -> SampleRow {
         let (path, segment, t) = self.curve.source(&sample.at);
         let bound = match sample.bound {
             Bound::Start => "start",
@@ -150,6 +152,8 @@ impl<'d> Engine<'d> {
             Bound::Min => "min",
             Bound::Max => "max",
             Bound::Grading => "grading",
+            // A floor that the user set is d_min.
+            Bound::Floor if bounds.min_distance.is_some() => "min",
             Bound::Floor => "floor",
             Bound::End => "end",
             Bound::Corner => "corner",
@@ -229,13 +233,27 @@ fn curve_model(drawing: &Drawing, corner_angle: f64) -> Result<CurveModel<f64>, 
 }
 
 /// Walks around every path.
-fn walk_all(curve: &CurveModel<f64>, options: &ModelOptions) -> Vec<Vec<MedialPoint<f64>>> {
+fn walk_all(
+    drawing: &Drawing,
+    curve: &CurveModel<f64>,
+    options: &ModelOptions,
+) -> Result<Vec<Vec<MedialPoint<f64>>>, Failure> {
     let resolution = match options.steps {
         Some(steps) => Resolution::Steps(steps),
         None => Resolution::Tolerance(options.tolerance),
     };
     let relevance = relevance(&curve.curve());
-    each_path(curve, "medial axis", options, |path| curve.walk(path, &resolution, &relevance))
+    let limit = options.max_medial_points;
+    let too_many = || {
+        let name = shown(&drawing.source);
+        let advice = "raise --max-medial-points, or ask for less with --tolerance or --steps";
+        Failure::limit(format!("{name}: more than {limit} medial points are needed: {advice}"))
+    };
+    let walked =
+        each_path(curve, "medial axis", options, |path| curve.walk_within(path, &resolution, &relevance, limit));
+    let points = walked.into_iter().collect::<Result<Vec<_>, _>>().map_err(|_| too_many())?;
+    // Each path alone and all together: the same answer for any number of threads.
+    if points.iter().map(Vec::len).sum::<usize>() > limit { Err(too_many()) } else { Ok(points) }
 }
 
 /// Does something to every path, on several threads, and answers the results in the order of the paths.

@@ -194,6 +194,9 @@ pub(crate) struct CompareArgs {
     /// Take the drawing to be of such a size that its diagonal has this physical length
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
     pub(crate) diagonal: Option<Length>,
+    /// Give up (exit code 5) where one path would need more ε-samples
+    #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) max_samples: u32,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
 }
@@ -456,6 +459,9 @@ pub(crate) struct ModelArgs {
     /// Joints that turn by less are smooth, in degrees
     #[arg(long, value_name = "DEG", default_value_t = 1.0, allow_negative_numbers = true)]
     pub(crate) corner_angle: f64,
+    /// Give up (exit code 5) where more medial points are needed
+    #[arg(long, value_name = "N", default_value_t = 20_000_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) max_medial_points: u32,
     /// Threads to use; the result does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
@@ -486,7 +492,8 @@ impl ModelArgs {
         let available = || std::thread::available_parallelism().map_or(1, NonZero::get);
         let threads = self.threads.map_or_else(available, usize::from);
         let corner_angle = check_corner_angle(self.corner_angle)?;
-        Ok(ModelOptions { steps: self.steps, tolerance, corner_angle, threads, quiet: self.quiet })
+        let max_medial_points = usize::try_from(self.max_medial_points).unwrap_or(usize::MAX);
+        Ok(ModelOptions { steps: self.steps, tolerance, corner_angle, max_medial_points, threads, quiet: self.quiet })
     }
 
     /// The options that decide the result, for headers.

@@ -161,6 +161,15 @@ fn a_physical_length_needs_a_physical_drawing() {
 fn a_limit_that_can_be_raised() {
     let place = Place::with_drawing();
     place.fails("sample drawing.svg -o out.csv --max-samples 3", 5, &["drawing.svg", "--max-samples"]);
+    place.fails("compare drawing.svg --max-samples 3", 5, &["drawing.svg", "--max-samples"]);
+    for command in ["sample", "medial", "lfs", "compare"] {
+        let line = format!("{command} drawing.svg --max-medial-points 50");
+        place.fails(&line, 5, &["drawing.svg", "50 medial points", "--max-medial-points"]);
+    }
+    let place_of_the_limit = place.ok("medial drawing.svg --quiet").lines().count() - 1;
+    place.ok(&format!("medial drawing.svg --quiet --max-medial-points {place_of_the_limit}"));
+    let one_less = format!("medial drawing.svg --quiet --max-medial-points {}", place_of_the_limit - 1);
+    place.fails(&one_less, 5, &["--max-medial-points"]);
     place.ok("sample drawing.svg -o out.csv --max-samples 300 --quiet");
 }
 

@@ -30,9 +30,6 @@ const G5_TOLERANCE: f64 = 0.1;
 /// Gaps below this share of the diagonal are nothing: the kernel drops segments that short, so the others may as well.
 const SLIVER: f64 = 2e-6;
 
-/// The most samples on one path, as in `sample`.
-const MOST_SAMPLES: u32 = 10_000_000;
-
 /// The most uniform steps per cubic that are tried.
 const MOST_STEPS: u32 = 4096;
 
@@ -81,7 +78,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
             max_distance: None,
             grading: None,
             start: 0.0,
-            limit: MOST_SAMPLES,
+            limit: args.max_samples,
         };
         engine.sample(&bounds).map(|paths| paths.iter().map(polyline).collect::<Vec<_>>())
     };

@@ -8,8 +8,8 @@
 //! satisfy m·P ≤ E·(1−P), hence sᵏ ≤ E/(E+m): the roots, k at most by the rule of signs, lie in a short bracket at that
 //! end, and nothing is left for the rest of the piece.
 //!
-//! Noise falls toward 0 (it is Σ|aⱼ|xʲ in size), so before a bracket much nearer to 0 than its piece's reach is given up
-//! as a cluster, the polynomial is written anew on that bracket and isolation continues there.
+//! Noise falls toward 0 (it is Σ|aⱼ|xʲ in size), so before a bracket that ends below four fifths of its piece's reach
+//! is given up as a cluster, the polynomial is written anew on that bracket and isolation continues there.
 //!
 //! Work is bounded by a number of steps; what is left when they are spent is reported as clusters, never dropped.
 
@@ -199,7 +199,7 @@ fn settle<S: Scalar, const N: usize>(
         }
         _ => (piece.lo, piece.hi, 0, 0, 0),
     };
-    if lower < upper && upper.clone().mul_pow2(2) <= piece.reach {
+    if lower < upper && upper.clone() * &S::ratio(5, 4) <= piece.reach {
         if before != 0 {
             record.pass(before, before);
         }

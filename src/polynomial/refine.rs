@@ -68,6 +68,10 @@ fn cluster<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<
         }
     }
     let parity_known = *before != 0 && *after != 0;
+    if !parity_known {
+        // at an end of the interval only some of a cluster may be seen from inside
+        k = k.max(dominant(p, &x, &reach));
+    }
     if parity_known && (before != after) != (k % 2 == 1) {
         k = if k < degree { k + 1 } else { k.saturating_sub(1) };
     }

@@ -219,7 +219,7 @@ fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S
         && left.upper >= one
         && right.lower <= one
     {
-        *left = joined(left, right);
+        *left = joined(p, left, right);
         first_far = None;
     }
     for r in near.into_iter().chain(first_far).chain(far) {
@@ -230,9 +230,27 @@ fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S
 }
 
 /// Two findings that meet at the boundary between two searches.
-fn joined<S: Scalar>(left: &Root<S>, right: &Root<S>) -> Root<S> {
-    let kind = if right.kind.multiplicity() > left.kind.multiplicity() { right.kind } else { left.kind };
-    Root { value: S::midpoint(&left.value, &right.value), lower: left.lower.clone(), upper: right.upper.clone(), kind }
+///
+/// Two simple ones are one root seen from both sides if p changes its sign from end to end of both; then the value that
+/// p is smaller at is the better one (the other may be cut at the boundary).
+fn joined<S: Scalar, const N: usize>(p: &Polynomial<S, N>, left: &Root<S>, right: &Root<S>) -> Root<S> {
+    let (lower, upper) = (left.lower.clone(), right.upper.clone());
+    let size = |x: &S| p.eval(x).abs();
+    let simple = left.kind == RootKind::Simple && right.kind == RootKind::Simple;
+    let crosses = (p.eval(&lower) > S::zero()) != (p.eval(&upper) > S::zero());
+    if simple && crosses {
+        let value = if size(&left.value) <= size(&right.value) { &left.value } else { &right.value };
+        return Root { value: value.clone(), lower, upper, kind: RootKind::Simple };
+    }
+    // two simple roots make two; of clusters cut in two the larger part, and the parity that the ends show
+    let parts = [left, right].map(|root| root.kind.multiplicity());
+    let most = if simple { 2 } else { parts[0].max(parts[1]) };
+    let kind = match most.saturating_add(u8::from((most % 2 == 1) != crosses)) {
+        2 => RootKind::Even,
+        3 => RootKind::Odd,
+        k => RootKind::Cluster(k),
+    };
+    Root { value: S::midpoint(&left.value, &right.value), lower, upper, kind }
 }
 
 /// Appends; there are never more roots than coefficients, and if noise made it so, the last bracket grows.

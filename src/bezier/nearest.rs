@@ -14,6 +14,10 @@
 //! curvature g has nearly multiple roots, where root finders lose or misplace solutions; here F is flat there, the bound
 //! closes after a few halvings, and every answer is the value of F at a point of the curve.
 //!
+//! **Noise.** Signs of coefficients within their rounding error say nothing. Where one matters, g is written anew from the
+//! curve on the stretch in question, where its errors are in proportion to the stretch, and halving goes on until what is
+//! left of them cannot matter.
+//!
 //! **Accuracy.** The returned `distance_sq` is |B(t) − q|² for the returned t as evaluated. It exceeds the true minimum by
 //! at most a few roundings of itself plus the square of the rounding error of B(t), in relation to the size of B − q on
 //! the curve: pruning allows for the noise of the lower bound.
@@ -115,14 +119,14 @@ struct View<'b, S> {
     /// B(0) − q.
     offset: Vector<S>,
     quintic: Polynomial<S, 6>,
-    /// Bound of the error of the lower bound of F, per unit of length of the parameter interval.
-    noise: S,
 }
 
 /// A stretch that may hold a minimum below the best value so far.
 struct Stretch<S> {
     /// Bernstein coefficients of g, times 10.
     g: [S; 6],
+    /// Bound of their error.
+    noise: S,
     lo: S,
     hi: S,
     /// F(lo).
@@ -134,17 +138,13 @@ struct Stretch<S> {
 impl<'b, S: Scalar> View<'b, S> {
     #[inline]
     fn new(basis: &'b PowerBasis<S>, q: &Point<S>) -> Self {
-        let quintic = distance_quintic(basis, q);
-        let noise = quintic.weight() * &S::unit_roundoff().mul_pow2(5);
-        Self { basis, offset: basis.origin.minus(q), quintic, noise }
+        Self { basis, offset: basis.origin.minus(q), quintic: distance_quintic(basis, q) }
     }
 
     /// F(t).
     #[inline]
     fn distance_sq(&self, t: &S) -> S {
-        let [a1, a2, a3] = &self.basis.a;
-        let v = a1.plus_scaled(t, &a2.plus_scaled(t, a3));
-        self.offset.plus_scaled(t, &v).norm_sq()
+        self.offset.plus_scaled(t, &self.drift(t)).norm_sq()
     }
 
     /// g(t) and g'(t) from the curve itself: their errors are those of B(t) − q and B'(t), much smaller than those of the
@@ -170,13 +170,14 @@ impl<'b, S: Scalar> View<'b, S> {
         let (start, end) = (self.distance_sq(&lo), self.distance_sq(&hi));
         let mut best = if end < start { (hi.clone(), end) } else { (lo.clone(), start.clone()) };
         let mut pending: ArrayVec<Stretch<S>, PENDING> = ArrayVec::new();
-        let mut stretch = Stretch { g, lo, hi, start, floor: S::zero() };
-        let Some(floor) = self.look(&stretch, &mut best) else {
+        let noise = noise(&self.quintic);
+        let mut stretch = Stretch { g, noise, lo, hi, start, floor: S::zero() };
+        let Some(floor) = self.look(&mut stretch, &mut best) else {
             return self.answer(best.0, best.1);
         };
         stretch.floor = floor;
         for _ in 0..16 * S::BITS {
-            let Stretch { g, lo, hi, start, floor } = stretch;
+            let Stretch { g, noise, lo, hi, start, floor } = stretch;
             let mid = S::midpoint(&lo, &hi);
             let mut next = None;
             if floor < worthwhile(&best.1) && lo < mid && mid < hi {
@@ -185,10 +186,10 @@ impl<'b, S: Scalar> View<'b, S> {
                     best = (mid.clone(), value.clone());
                 }
                 let (left, right) = bernstein::halve(g);
-                let mut left = Stretch { g: left, lo, hi: mid.clone(), start, floor: S::zero() };
-                let mut right = Stretch { g: right, lo: mid, hi, start: value, floor: S::zero() };
-                let left_floor = self.look(&left, &mut best);
-                let right_floor = self.look(&right, &mut best);
+                let mut left = Stretch { g: left, noise: noise.clone(), lo, hi: mid.clone(), start, floor: S::zero() };
+                let mut right = Stretch { g: right, noise, lo: mid, hi, start: value, floor: S::zero() };
+                let left_floor = self.look(&mut left, &mut best);
+                let right_floor = self.look(&mut right, &mut best);
                 next = match (left_floor, right_floor) {
                     (Some(l), Some(r)) => {
                         let right_first = r < l;
@@ -224,9 +225,13 @@ impl<'b, S: Scalar> View<'b, S> {
     /// Settles a stretch if it is monotone, cannot beat the best, or holds just one extremum; otherwise returns the lower
     /// bound of F on it: it must be halved. `best` is (t, F(t)).
     #[inline]
-    fn look(&self, stretch: &Stretch<S>, best: &mut (S, S)) -> Option<S> {
-        let signs = Signs::of(&stretch.g, &S::zero());
-        if signs.positive == 0 || signs.negative == 0 {
+    fn look(&self, stretch: &mut Stretch<S>, best: &mut (S, S)) -> Option<S> {
+        let mut signs = Signs::of(&stretch.g, &stretch.noise);
+        let mut is_certain = true;
+        if signs.decided() != Signs::full::<6>() {
+            (signs, is_certain) = self.look_closer(stretch, best);
+        }
+        if is_certain && (signs.positive == 0 || signs.negative == 0) {
             return None;
         }
         let changes = signs.changes();
@@ -243,7 +248,7 @@ impl<'b, S: Scalar> View<'b, S> {
             }
         }
         // F₀ + h Σ gᵢ/3; the coefficients are ten times too large
-        let floor = (least * &S::ratio(1, 30) - &self.noise) * &width + &stretch.start;
+        let floor = (least * &S::ratio(1, 30) - &stretch.noise) * &width + &stretch.start;
         if floor >= worthwhile(&best.1) {
             return None;
         }
@@ -258,6 +263,53 @@ impl<'b, S: Scalar> View<'b, S> {
         }
         None
     }
+}
+
+impl<S: Scalar> View<'_, S> {
+    /// The signs of a stretch some of whose coefficients are noise, and whether they can be relied on.
+    ///
+    /// F cannot fall below what these signs promise by more than noise times width. Where that is more than a few roundings
+    /// of the best value so far, g is written anew from the curve on this stretch alone: its noise is then in proportion to
+    /// the distances and the length of the stretch, not to the size of the curve. What is still undecided then is not
+    /// relied on; halves of it are smaller, and their noise falls with the square of their size. (Found by random bytes: a
+    /// query 1e-9 beside the end of a stroke of length 30 with a retracted handle, answered 4e-10 too far.)
+    #[cold]
+    fn look_closer(&self, stretch: &mut Stretch<S>, best: &(S, S)) -> (Signs, bool) {
+        let width = stretch.hi.clone() - &stretch.lo;
+        let allowed = S::unit_roundoff().mul_pow2(2) * &best.1;
+        let is_harmless = |noise: &S| noise.clone() * &width <= allowed;
+        if !is_harmless(&stretch.noise) {
+            let mut scale = S::one();
+            let a = self.basis.taylor(&stretch.lo).map(|v| {
+                scale = scale.clone() * &width;
+                v.scaled(&scale)
+            });
+            // with the query at the origin
+            let start = self.offset.plus_scaled(&stretch.lo, &self.drift(&stretch.lo));
+            let local = PowerBasis { origin: Point::new(start.x, start.y), a };
+            let quintic = distance_quintic(&local, &Point::new(S::zero(), S::zero()));
+            stretch.g = bernstein::on_unit(&quintic.coefficients).map(|c| c / &width);
+            stretch.noise = noise(&quintic) / &width;
+        }
+        if is_harmless(&stretch.noise) {
+            return (Signs::of(&stretch.g, &S::zero()), true);
+        }
+        let signs = Signs::of(&stretch.g, &stretch.noise);
+        (signs, signs.decided() == Signs::full::<6>())
+    }
+
+    /// (B(t) − B(0))/t.
+    #[inline]
+    fn drift(&self, t: &S) -> Vector<S> {
+        let [a1, a2, a3] = &self.basis.a;
+        a1.plus_scaled(t, &a2.plus_scaled(t, a3))
+    }
+}
+
+/// Bound of the error of the Bernstein coefficients, times 10, of a quintic on [0, 1] or a part of it.
+#[inline]
+fn noise<S: Scalar>(quintic: &Polynomial<S, 6>) -> S {
+    quintic.weight() * &S::unit_roundoff().mul_pow2(7)
 }
 
 /// Below this a value is an improvement of more than a few roundings.

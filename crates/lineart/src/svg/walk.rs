@@ -20,6 +20,7 @@ use super::transform::Affine;
 use super::viewport::{self, Axis, RootSize, Viewport};
 use super::{MAX_CUBICS, MAX_DEPTH, MAX_ELEMENTS, path_data, shapes};
 use crate::drawing::{Drawing, DrawingPath, Group, Warning};
+use crate::text_in::one_line;
 
 const SVG: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
@@ -168,7 +169,8 @@ impl<'a> Reader<'a, '_> {
             return;
         }
         let element = element_name(element).to_string();
-        self.drawing.warnings.push(Warning { element, message: message.into() });
+        // What is quoted may hold line breaks; a warning is one line.
+        self.drawing.warnings.push(Warning { element, message: one_line(&message.into()) });
     }
 
     fn finish(mut self) -> Result<Drawing, SvgErrorKind> {

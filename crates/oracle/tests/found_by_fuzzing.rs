@@ -1,0 +1,80 @@
+//! What fuzzing and the surveys have found, each by its name.
+
+use feature_sampling::bezier::Cubic;
+use feature_sampling::bezier::nearest::nearest;
+use feature_sampling::geometry::Point;
+use fsample_oracle::closest::Closest;
+use fsample_oracle::property::{check_roots, document};
+use fsample_oracle::solve::{Ask, solve};
+
+/// The reversed polynomial was given up as noise on the lower quarter of a piece: a cluster of three where p is 1e15 times
+/// its rounding error.
+#[test]
+fn large_positive_roots_cast_no_shadow_on_the_negative_side() {
+    let p = [
+        -4.679729755136345e93,
+        3.797164789115978e75,
+        -1.0825742859398463e57,
+        1.3139344419369277e38,
+        -7.065350496848394e18,
+        0.13840307910588834,
+    ];
+    let found = solve(&p, Ask::Real).expect("finite");
+    assert_eq!(found.len(), 5, "{found:?}");
+    assert!(found.iter().all(|root| root.value > 0.0), "{found:?}");
+    check_roots(&[0.0, 0.0, 1.1909882842232846e39, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 2.3283064365386963e-10, 230.0);
+}
+
+/// Seen from the left the root is at 1 − 1.5e-14, from the right it is cut at 1: the mean of both was taken.
+#[test]
+fn a_root_just_below_1_found_from_both_sides() {
+    let p =
+        [0.019341239008092294, -0.09648902649701292, 0.1925443077357085, -0.11539652024678773, -1.0130785099704553e-15];
+    check_roots(&p, -1.0, 2.0);
+}
+
+/// A near miss of a double root at 1 was called a simple root.
+#[test]
+fn a_double_root_at_an_end_is_not_simple() {
+    let p = [
+        1.9502201306534328e-18,
+        2162097509668.7373,
+        -6486292515056.276,
+        7206991668036.129,
+        -3603495826431.6606,
+        720699163783.071,
+    ];
+    check_roots(&p, 0.0, 1.5);
+}
+
+/// Half of a triple root at 1 from the left, half from the right: a cluster of two, with one root in it.
+#[test]
+fn a_triple_root_at_1_found_from_both_sides_keeps_its_parity() {
+    let p = [
+        6.155857742094904e17,
+        -2.0519525804593882e18,
+        2.4623430963600937e18,
+        -1.231171548132202e18,
+        2.051952580219991e17,
+        6911.8945312493015,
+    ];
+    check_roots(&p, 0.5, 1.5);
+}
+
+/// Signs of coefficients that were nothing but noise were believed: 4e-10 too far on a stroke of length 30.
+#[test]
+fn a_query_beside_the_end_of_a_retracted_handle() {
+    let x = 2.3283064365386963e-10;
+    let (a, b) = (Point::new(x, -24.028473675842545), Point::new(x, 6.574660815772404e-10));
+    let basis = Cubic::new(a, a, b, b).power_basis();
+    let q = Point::new(x, x);
+    let found = nearest(&basis, &q);
+    let exact = Closest::new(&basis, &q).expect("finite");
+    assert!(exact.excess_absolute(found.t) < 1e-14, "{found:?}: {}", exact.excess_absolute(found.t));
+}
+
+/// A selector with a line break made a warning of two lines.
+#[test]
+fn a_line_break_in_a_style_sheet_stays_out_of_the_warning() {
+    document(b"!<style>a>\nb[c]{stroke:red}</style><path d='M0 0L1 1'/>");
+}

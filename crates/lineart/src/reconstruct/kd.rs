@@ -60,28 +60,39 @@ impl Kd {
 
     /// Some point lies at less than √`radius_sq` from `place`.
     pub(crate) fn any_within(&self, place: &Point<f64>, radius_sq: f64) -> bool {
+        self.find(place, radius_sq.sqrt(), |p| p.distance_sq(place) < radius_sq).is_some()
+    }
+
+    /// A point that fulfils a condition which only holds within a disk, up to a relative 1e−9 of its radius.
+    pub(crate) fn find(
+        &self,
+        place: &Point<f64>,
+        radius: f64,
+        condition: impl Fn(&Point<f64>) -> bool,
+    ) -> Option<Point<f64>> {
+        let reach = radius * (1.0 + 1e-9);
         let mut ranges = vec![(0, self.items.len(), false)];
         while let Some((from, to, by_y)) = ranges.pop() {
             if to - from <= LEAF {
-                if self.items[from..to].iter().any(|item| item.0.distance_sq(place) < radius_sq) {
-                    return true;
+                if let Some(item) = self.items[from..to].iter().find(|item| condition(&item.0)) {
+                    return Some(item.0);
                 }
                 continue;
             }
             let middle = from + (to - from) / 2;
             let item = &self.items[middle];
-            if item.0.distance_sq(place) < radius_sq {
-                return true;
+            if condition(&item.0) {
+                return Some(item.0);
             }
             let beyond = key(place, by_y) - key(&item.0, by_y);
             let [near, far] =
                 if beyond < 0.0 { [(from, middle), (middle + 1, to)] } else { [(middle + 1, to), (from, middle)] };
-            if beyond * beyond < radius_sq {
+            if beyond.abs() <= reach {
                 ranges.push((far.0, far.1, !by_y));
             }
             ranges.push((near.0, near.1, !by_y));
         }
-        false
+        None
     }
 }
 

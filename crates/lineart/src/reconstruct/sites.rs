@@ -271,6 +271,7 @@ impl Scale {
 }
 
 /// A constructed point in the domain of the predicates.
+#[cfg(test)]
 pub(crate) fn admissible(p: Point<f64>) -> Point<f64> {
     /// Far beyond all that scaled sites can lead to, and within the domain.
     const LARGEST: f64 = 1e60;
@@ -304,6 +305,7 @@ fn triangulation(points: &[Point<f64>]) -> DelaunayTriangulation<Vertex> {
 }
 
 /// The edges of a Delaunay triangulation of distinct points in the domain of `spade`, as pairs of their numbers.
+#[cfg(test)]
 pub(crate) fn delaunay_edges(points: &[Point<f64>]) -> Vec<[u32; 2]> {
     let triangulation = triangulation(points);
     triangulation.undirected_edges().map(|edge| ascending(edge.vertices().map(|v| v.data().number))).collect()

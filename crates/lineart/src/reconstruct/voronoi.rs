@@ -1,11 +1,11 @@
 //! Voronoi vertices: centres of the empty circles through three sites.
 //!
-//! No vertex may be left out because it is far away: the centre of a sliver at the hull is what keeps Crust from closing
-//! the hull with a false chord. A triangle so flat that its centre cannot be computed (twice its area below 1e−9 of its
+//! No vertex may be left out because it is far away: the centre of a sliver at the hull bears on the edge beside it. A triangle so flat that its centre cannot be computed (twice its area below 1e−9 of its
 //! longest side squared) gets one at 10⁶ times the longest side, beyond that side; that is nearer than the true centre of
 //! all but the very flattest such triangles, and as good as infinitely far for every circle through sites of a curve.
 
 use feature_sampling::geometry::Point;
+use robust::{Coord, orient2d};
 
 use super::sites::Sites;
 
@@ -23,7 +23,9 @@ pub fn circumcentres(sites: &Sites) -> Vec<Point<f64>> {
 fn circumcentre([a, b, c]: [Point<f64>; 3]) -> Point<f64> {
     let (u, v) = (b.minus(&a), c.minus(&a));
     let (uu, vv) = (u.norm_sq(), v.norm_sq());
-    let area2 = u.x * v.y - u.y * v.x;
+    let coord = |p: Point<f64>| Coord { x: p.x, y: p.y };
+    // Exact in sign: the centre of a sliver must not end up on the wrong side of it.
+    let area2 = orient2d(coord(a), coord(b), coord(c));
     let sides = [(b.distance_sq(&c), a, b, c), (vv, b, c, a), (uu, c, a, b)];
     let (longest, apex, from, to) = sides.into_iter().fold(sides[0], |m, s| if s.0 > m.0 { s } else { m });
     if area2.abs() < FLAT * longest {
@@ -32,8 +34,7 @@ fn circumcentre([a, b, c]: [Point<f64>; 3]) -> Point<f64> {
         let out = Point::new(middle.x - FAR * along.y, middle.y + FAR * along.x);
         let back = Point::new(middle.x + FAR * along.y, middle.y - FAR * along.x);
         // Beyond the longest side: where the apex is not.
-        let side = (apex.y - from.y) * along.x - (apex.x - from.x) * along.y;
-        return if side > 0.0 { back } else { out };
+        return if orient2d(coord(from), coord(to), coord(apex)) > 0.0 { back } else { out };
     }
     let d = 0.5 / area2;
     Point::new(a.x + d * (v.y * uu - u.y * vv), a.y + d * (u.x * vv - v.x * uu))

@@ -6,6 +6,7 @@
 //! * [`Field`] is algebra alone: + − × ÷ √ and small integers. It has no comparison on purpose, so that formulas over
 //!   it also hold for intervals.
 //! * [`Scalar`] adds what algorithms need to decide: an order, a precision, conversion at the door.
+//! * [`Directed`] adds operations rounded outwards, and with them [`Interval`]: a `Field` that encloses, never a `Scalar`.
 //!
 //! Only + − × ÷ √ and comparisons are used anywhere in the kernel. IEEE 754 fixes the results of these to the bit, so
 //! `std` and `libm` builds agree on every target with IEEE arithmetic.
@@ -14,8 +15,13 @@
 //! this compiles to the same code, for numbers with a heap part it reuses the left operand's storage. A `clone()` in the
 //! kernel means that the value is truly needed twice.
 
+pub mod eft;
 mod float;
+mod interval;
 mod math;
+
+pub use eft::Directed;
+pub use interval::{Interval, Sign3};
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};

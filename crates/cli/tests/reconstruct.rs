@@ -90,3 +90,37 @@ fn experiments_make_their_files() {
     assert_eq!(run.status.code(), Some(3), "no sets");
     assert!(text(&run.stderr).contains("points.csv: line 1: “set E O N” is expected here"), "{}", text(&run.stderr));
 }
+
+/// What an independent implementation, on another triangulation library, measured on the 5000 published sets: valid within
+/// 1.5 points, and the same upper ε. Skipped where the sets are absent; `FSAMPLE_DATA` names the folder of extra data.
+#[test]
+fn table_3_on_the_published_sets() {
+    let data = std::env::var_os("FSAMPLE_DATA")
+        .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")), PathBuf::from);
+    let sets = data.join("study/complex-published.sets.xz");
+    if !sets.exists() {
+        eprintln!("skipped: {} is not there", sets.display());
+        return;
+    }
+    let sets = sets.to_string_lossy().into_owned();
+    let run = fsample(Path::new("."), &["reproduce", "table3", "--samples", &sets, "--quiet"]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let table = text(&run.stdout);
+    for (name, valid, upper) in [
+        ("conservative-crust", 29.8, "<0.50"),
+        ("compatible-crust", 65.2, "0.74"),
+        ("connect2d", 0.0, "<0.50"),
+        ("crawl", 0.3, "<0.50"),
+        ("crust", 45.2, "0.59"),
+        ("hnn-crust", 9.3, "<0.50"),
+        ("nn-crust", 47.8, "0.66"),
+        ("peel", 44.5, "0.64"),
+        ("sigdt", 3.7, "<0.50"),
+    ] {
+        let row = table.lines().find(|line| line.split(',').next() == Some(name)).expect("a row");
+        let cells: Vec<&str> = row.split(',').collect();
+        let found: f64 = cells[2].parse().expect("a number");
+        assert!((found - valid).abs() <= 1.5, "{name}: {found} % instead of {valid} %");
+        assert_eq!(cells[3], upper, "{name}: upper ε");
+    }
+}

@@ -5,7 +5,7 @@
 //! each path (with the closing edge of closed ones), no fewer and no more. The medial axis depends neither on ε nor on the
 //! start: it is computed once, on first use.
 //!
-//! Sets come from one of two [`Samples`]: this project's sampler, or a list of given sets, such as those that the paper's
+//! Sets come from one of two places: this project's sampler, or a list of given sets, such as those that the paper's
 //! own program made. The experiment's units are the values of ε of each of them in turn; a unit's findings are the number
 //! of correct runs by algorithm, the number of sets and of points.
 //!

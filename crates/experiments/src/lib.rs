@@ -13,7 +13,7 @@
 //! | [`shard`] | running some of the units, keeping what they found, putting it together |
 //! | [`clock`] | time on one core |
 //! | [`source`] | the curves that an experiment is about |
-//! | [`table1`] | Table 1: error and time against steps; [`prototype`] is [OMW16] re-created |
+//! | [`table1`] | Table 1: error and time against steps; [`prototype`] is Ohrhallinger, Mitchell and Wimmer (2016) re-created |
 //! | [`bars`] | bar charts, as SVG |
 //! | [`silhouette`], [`figure6`] | outlines of images and drawings, and their reconstruction |
 //! | [`study`] | the reconstruction study: sample sets, correctness, shares by ε |

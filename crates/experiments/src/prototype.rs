@@ -1,4 +1,4 @@
-//! The sampler of [OMW16], re-created from what the paper says of it: single floats, a discretised medial axis, quadratic.
+//! The sampler of Ohrhallinger, Mitchell and Wimmer (2016), re-created from what the paper says of it: single floats, a discretised medial axis, quadratic.
 //!
 //! Ohrhallinger, Mitchell and Wimmer's prototype knows the curve by its foot points only. For each of them the largest empty
 //! tangent disk is the smallest one through any *other foot point*, and lfs is the distance to the nearest centre. Both

@@ -2,7 +2,7 @@
 //!
 //! What an experiment computes lives in `fsample-experiments`. This file finds the curves, runs the units (or some of them,
 //! or none where shards are merged) and writes files. To add an experiment: a variant of
-//! [`ExperimentName`](crate::options::ExperimentName) and a line in [`experiments`].
+//! [`ExperimentName`] and a line in [`experiments`].
 
 use std::fs;
 use std::io;

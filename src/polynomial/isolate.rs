@@ -72,6 +72,8 @@ struct Record<S, const N: usize> {
     found: ArrayVec<Isolated<S>, N>,
     /// Sign of p at the right end of what has been searched so far.
     sign: i8,
+    /// Signs of p from the upper ends of brackets that are searched once more, innermost last.
+    beyond: ArrayVec<(S, i8), PENDING>,
 }
 
 impl<S: Scalar, const N: usize> Record<S, N> {
@@ -84,6 +86,18 @@ impl<S: Scalar, const N: usize> Record<S, N> {
             previous.after = first;
         }
         self.sign = last;
+    }
+
+    /// The search has come to this place: stretches without roots before it are passed.
+    #[inline]
+    fn arrive(&mut self, at: Option<&S>) {
+        while let Some((from, sign)) = self.beyond.last()
+            && at.is_none_or(|at| from <= at)
+        {
+            let sign = *sign;
+            self.beyond.pop();
+            self.pass(sign, sign);
+        }
     }
 
     /// One root between lower and upper.
@@ -128,14 +142,16 @@ impl<S: Scalar, const N: usize> Record<S, N> {
 /// Brackets of all roots of p on `first`, ascending; `p` is the polynomial the piece was made from and p(0) ≠ 0.
 #[inline]
 pub(super) fn isolate<S: Scalar, const N: usize>(p: &Polynomial<S, N>, first: Piece<S, N>) -> ArrayVec<Isolated<S>, N> {
-    let mut record = Record { found: ArrayVec::new(), sign: 0 };
+    let mut record = Record { found: ArrayVec::new(), sign: 0, beyond: ArrayVec::new() };
     let mut pending: ArrayVec<Piece<S, N>, PENDING> = ArrayVec::new();
     let mut current = Some(first);
     let steps = 2 * N * (S::BITS as usize + 16);
     for _ in 0..steps {
         let Some(piece) = current.take().or_else(|| pending.pop()) else {
+            record.arrive(None);
             return record.found;
         };
+        record.arrive(Some(&piece.lo));
         match judge(&piece) {
             Verdict::None(sign) => record.pass(sign, sign),
             Verdict::One(change) => {
@@ -202,6 +218,10 @@ fn settle<S: Scalar, const N: usize>(
     if lower < upper && upper.clone() * &S::ratio(5, 4) <= piece.reach {
         if before != 0 {
             record.pass(before, before);
+        }
+        if after != 0 {
+            // Without room the parity of what is found stays unknown, nothing else.
+            let _ = record.beyond.try_push((upper.clone(), after));
         }
         return Some(Piece::seated(p, lower, upper));
     }

@@ -372,6 +372,9 @@ pub(crate) struct RootsArgs {
     /// Find all real roots
     #[arg(long)]
     pub(crate) all: bool,
+    /// Prove the answer in exact arithmetic: each bracket holds as many roots as its kind says, and there are no others
+    #[arg(long)]
+    pub(crate) certified: bool,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
     /// No warnings on standard error

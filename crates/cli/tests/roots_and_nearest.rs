@@ -113,6 +113,19 @@ fn hexadecimal_is_exact() {
 }
 
 #[test]
+fn certified_brackets_are_theorems() {
+    // x² − 2; (x − ½)³(3x − 1); a near miss of a double root, which has none; a double root
+    let input = "-2 0 1\n0.125 -1.125 3.75 -5.5 3\n0x1.0000000000001p-2 -1 1\n0.25 -1 1\n";
+    let rows = roots(&["--certified", "--interval", "0,2"], input);
+    let short: Vec<(&str, &str)> = rows.iter().map(|r| (r[0].as_str(), r[4].as_str())).collect();
+    assert_eq!(short, [("1", "simple"), ("2", "simple"), ("2", "odd"), ("4", "even")]);
+    let (lower, upper) = (value(&rows[0][2]), value(&rows[0][3]));
+    assert_eq!((lower, upper), (std::f64::consts::SQRT_2.next_down(), std::f64::consts::SQRT_2), "√2 is between them");
+    assert_eq!((value(&rows[2][2]), value(&rows[2][3])), (0.5, 0.5), "exactly");
+    assert_eq!(roots(&["--certified", "--all"], "-2 0 1\n").len(), 2);
+}
+
+#[test]
 fn closest_points_of_a_drawing() {
     let place = Place::with_drawing();
     let ran = place

@@ -165,6 +165,21 @@ fn scale(x: f64, e: i64, power: &impl Fn(i64) -> f64) -> f64 {
     x * power(e)
 }
 
+impl Dyadic {
+    /// The largest double that is not above, and the smallest that is not below.
+    pub fn enclosing(&self) -> (f64, f64) {
+        let near = self.to_f64();
+        let Some(exact) = Self::from_f64(near) else {
+            return if near > 0.0 { (f64::MAX, near) } else { (near, f64::MIN) };
+        };
+        match exact.cmp(self) {
+            Ordering::Less => (near, near.next_up()),
+            Ordering::Equal => (near, near),
+            Ordering::Greater => (near.next_down(), near),
+        }
+    }
+}
+
 impl PartialEq for Dyadic {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
@@ -200,6 +215,16 @@ mod tests {
             }
         }
         assert!(Dyadic::from_f64(f64::NAN).is_none() && Dyadic::from_f64(f64::INFINITY).is_none());
+    }
+
+    #[test]
+    fn doubles_around() {
+        let tenth = Dyadic::from_f64(0.1).expect("finite");
+        assert_eq!(tenth.enclosing(), (0.1, 0.1));
+        let more = tenth.plus(&Dyadic::power_of_two(-100));
+        assert_eq!(more.enclosing(), (0.1, 0.1_f64.next_up()));
+        assert_eq!(more.negated().enclosing(), (-(0.1_f64.next_up()), -0.1));
+        assert_eq!(Dyadic::power_of_two(-2000).enclosing(), (0.0, 5e-324));
     }
 
     #[test]

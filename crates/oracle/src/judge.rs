@@ -157,6 +157,41 @@ impl Judge {
         }
     }
 
+    /// All roots within an interval between doubles, proved: each finding holds exactly as many roots, counted with their
+    /// multiplicities, as its kind says, and there is no other root in the interval. Brackets are the narrowest doubles
+    /// allow but for one step, and apart; roots closer than that share one.
+    pub fn certified(&self, within: &Interval) -> Vec<Root<f64>> {
+        let (lo, hi) = (&within.lo, &within.hi);
+        let all = match &self.multiplicities {
+            Some(all) => all.roots(lo, hi, 64),
+            None => self.sturm.roots(lo, hi, 64).into_iter().map(|(lo, hi)| (lo, hi, 1)).collect(),
+        };
+        let mut groups: Vec<(f64, f64, f64, usize)> = Vec::new();
+        for (a, b, multiplicity) in all {
+            let (lower, upper) = (a.enclosing().0, b.enclosing().1);
+            let value = middle(&a, &b).clamp(lower, upper);
+            match groups.last_mut() {
+                Some((_, _, end, count)) if lower <= *end => {
+                    *end = upper.max(*end);
+                    *count += multiplicity;
+                }
+                _ => groups.push((value, lower, upper, multiplicity)),
+            }
+        }
+        groups
+            .into_iter()
+            .map(|(value, lower, upper, count)| {
+                let kind = match count {
+                    1 => RootKind::Simple,
+                    2 => RootKind::Even,
+                    3 => RootKind::Odd,
+                    k => RootKind::Cluster(u8::try_from(k).unwrap_or(u8::MAX)),
+                };
+                Root { value, lower, upper, kind }
+            })
+            .collect()
+    }
+
     /// The attainable error ρ at x.
     pub fn attainable(&self, x: &Dyadic) -> f64 {
         let noise = self.exact.magnitude(x).log2() - 53.0;
@@ -370,6 +405,19 @@ mod tests {
         let even = Root { value: 0.5, lower: 0.5 - 1e-8, upper: 0.5 + 1e-8, kind: RootKind::Even };
         assert!(matches!(judge.faults(&[even], &unit())[..], [Fault::Ghost(0, _)]), "well above zero");
         assert_eq!(judge.faults(&[], &unit()), []);
+    }
+
+    #[test]
+    fn certified_brackets() {
+        // (x − ½)³(3x − 1), and two roots closer than doubles can tell
+        let judge = Judge::new(&[0.125, -1.125, 3.75, -5.5, 3.0]).expect("not zero");
+        let found = judge.certified(&unit());
+        assert_eq!(found.iter().map(|r| r.kind).collect::<Vec<_>>(), [RootKind::Simple, RootKind::Odd]);
+        assert_eq!((found[1].lower, found[1].value, found[1].upper), (0.5, 0.5, 0.5));
+        assert!(found[0].lower < found[0].upper && found[0].upper <= found[0].lower.next_up().next_up(), "{found:?}");
+        assert_eq!(judge.faults(&found, &unit()), []);
+        let close = Judge::new(&[-f64::from_bits(1), 0.0, 1.0]).expect("not zero");
+        assert_eq!(close.certified(&unit()).len(), 1, "√5e-324 is a double's neighbourhood away from nothing");
     }
 
     #[test]

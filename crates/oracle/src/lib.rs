@@ -17,8 +17,8 @@
 //!   bytes and on the committed corpus in `cargo test`;
 //! * [`survey`]: counts of wrong answers over many cases.
 //!
-//! Nothing here is part of the product, and nothing of the product judges itself: of the kernel only the functions under
-//! test are called.
+//! Nothing of the product judges itself: of the kernel only the functions under test are called. One answer is handed on to
+//! users: `fsample roots --certified` prints [`judge::Judge::certified`].
 
 pub mod closest;
 pub mod decode;

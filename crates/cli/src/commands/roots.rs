@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use feature_sampling::polynomial::{Polynomial, Root, RootKind, RootsError};
+use fsample_oracle::judge::{Interval, Judge};
 use lineart::export::number::Number;
 
 use crate::errors::{Failure, warn};
@@ -48,7 +49,8 @@ pub(crate) fn run(args: &RootsArgs) -> Result<(), Failure> {
         if coefficients.is_empty() {
             continue;
         }
-        match solve(&coefficients, range) {
+        let answer = if args.certified { certified(&coefficients, range) } else { solve(&coefficients, range) };
+        match answer {
             Ok(found) => found.iter().for_each(|root| row(&mut rows, line, root)),
             Err(RootsError::ZeroPolynomial) if args.quiet => {}
             Err(RootsError::ZeroPolynomial) => {
@@ -97,6 +99,17 @@ fn solve(coefficients: &[f64], range: Range) -> Result<Vec<Root<f64>>, RootsErro
         };
     }
     by_size!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
+}
+
+/// The roots with brackets that are proved, by counts in integers of any size.
+fn certified(coefficients: &[f64], range: Range) -> Result<Vec<Root<f64>>, RootsError> {
+    let judge = Judge::new(coefficients).ok_or(RootsError::ZeroPolynomial)?;
+    let within = match range {
+        Range::Unit => Interval::between(0.0, 1.0),
+        Range::Between(lo, hi) => Interval::between(lo, hi),
+        Range::Real => Some(judge.everywhere()),
+    };
+    Ok(judge.certified(&within.ok_or(RootsError::BadInterval)?))
 }
 
 fn solve_as<const N: usize>(coefficients: &[f64], range: Range) -> Result<Vec<Root<f64>>, RootsError> {

@@ -98,6 +98,9 @@ fn product_residual(a: f64, b: f64, p: f64) -> f64 {
         two_product(a, b).1
     } else if a == 0.0 || b == 0.0 || a.is_infinite() || b.is_infinite() {
         0.0
+    } else if p == 0.0 {
+        // Underflow: the sign is that of the factors, so a positive product is not stepped below 0.
+        a.signum() * b.signum()
     } else {
         f64::NAN
     }
@@ -119,6 +122,9 @@ fn division_residual(a: f64, b: f64, q: f64) -> f64 {
         }
     } else if a == 0.0 || a.is_infinite() || b.is_infinite() {
         0.0
+    } else if q == 0.0 {
+        // Underflow: a − q·b is a.
+        a.signum()
     } else {
         f64::NAN
     }

@@ -7,6 +7,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`number`] | the number |
+//! | [`directed`] | outward rounding, for intervals of these numbers |
 //! | [`ladder`] | precisions chosen at run time |
 //! | [`predicate`] | exact orientation and in-circle for these numbers |
 //! | [`truth`] | the table of allowed errors, one entry for each public function of the kernel |
@@ -18,6 +19,7 @@
 //!
 //! Numbers of this kind are on the heap: an operation takes about a hundred times as long as in `f64`.
 
+pub mod directed;
 pub mod ladder;
 pub mod number;
 pub mod predicate;

@@ -53,6 +53,9 @@ pub fn others() -> String {
             Kind::Through(other) => {
                 let _ = writeln!(out, "| `{}` | those of `{other}` |", entry.function);
             }
+            Kind::Encloses(how) => {
+                let _ = writeln!(out, "| `{}` | encloses the exact result, {how} |", entry.function);
+            }
             Kind::Measured(_) => {}
         }
     }

@@ -35,6 +35,8 @@ pub enum Kind {
     Exact(&'static str),
     /// Whatever is computed is computed by the function of this name, which has an entry of its own.
     Through(&'static str),
+    /// The result encloses the exact one; by how much it is wider is the word. Judged by `tests/interval.rs`.
+    Encloses(&'static str),
     /// Rounded, and measured.
     Measured(Measured),
 }

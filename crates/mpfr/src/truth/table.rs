@@ -34,6 +34,10 @@ const fn through(function: &'static str, other: &'static str) -> Entry {
     Entry { function, kind: Kind::Through(other) }
 }
 
+const fn encloses(function: &'static str, how: &'static str) -> Entry {
+    Entry { function, kind: Kind::Encloses(how) }
+}
+
 /// One entry for each public function of the kernel, by name.
 pub const TABLE: &[Entry] = &[
     measured!("bezier::critical::inflections", a::inflections, "1, for tame cubics", [2.0, 2.0], SOME),
@@ -243,6 +247,7 @@ pub const TABLE: &[Entry] = &[
     through("model::CurveModel::sample_path", "sampling::sampler::sample_path"),
     through("model::CurveModel::source", "curve::Source::parameter"),
     through("model::CurveModel::walk", "medial::walk::walk"),
+    through("model::CurveModel::walk_within", "medial::walk::walk"),
     exact("model::MedialModel::from_paths", "copies"),
     exact("model::MedialModel::index", "a copy"),
     through("model::MedialModel::lfs", "lfs::LfsIndex::distance"),
@@ -360,4 +365,44 @@ pub const TABLE: &[Entry] = &[
     measured!("scalar::Scalar::ratio", a::ratio, "the result", [0.5, 0.5], MANY),
     exact("scalar::Scalar::to_f64", "f32 and f64 are doubles"),
     exact("scalar::Scalar::unit_roundoff", "a power of two"),
+    encloses("scalar::eft::Directed::add_down", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::add_up", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::div_down", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::div_up", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::from_f64_down", "the best bound"),
+    encloses("scalar::eft::Directed::from_f64_up", "the best bound"),
+    encloses("scalar::eft::Directed::int_down", "the best bound"),
+    encloses("scalar::eft::Directed::int_up", "the best bound"),
+    encloses("scalar::eft::Directed::mul_down", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::mul_pow2_down", "exact within the range"),
+    encloses("scalar::eft::Directed::mul_pow2_up", "exact within the range"),
+    encloses("scalar::eft::Directed::mul_up", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::sqrt_down", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::sqrt_up", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::sub_down", "the best bound or one step wider"),
+    encloses("scalar::eft::Directed::sub_up", "the best bound or one step wider"),
+    exact("scalar::eft::two_product", "the error of the product is part of the result, in its range"),
+    exact("scalar::eft::two_sum", "the error of the sum is part of the result"),
+    exact("scalar::interval::Interval::between", "copies"),
+    exact("scalar::interval::Interval::certainly_le", "comparisons"),
+    exact("scalar::interval::Interval::certainly_lt", "comparisons"),
+    exact("scalar::interval::Interval::contains", "comparisons"),
+    exact("scalar::interval::Interval::encloses", "comparisons"),
+    exact("scalar::interval::Interval::entire", "no computation"),
+    encloses("scalar::interval::Interval::from_f64", "the best bounds"),
+    exact("scalar::interval::Interval::hi", "a copy"),
+    exact("scalar::interval::Interval::hull", "comparisons"),
+    exact("scalar::interval::Interval::intersection", "comparisons"),
+    exact("scalar::interval::Interval::lo", "a copy"),
+    exact("scalar::interval::Interval::magnitude", "comparisons"),
+    exact("scalar::interval::Interval::max", "comparisons"),
+    exact("scalar::interval::Interval::meets", "comparisons"),
+    exact("scalar::interval::Interval::middle", "some member; which one is free"),
+    exact("scalar::interval::Interval::mignitude", "comparisons"),
+    exact("scalar::interval::Interval::min", "comparisons"),
+    exact("scalar::interval::Interval::new", "copies"),
+    exact("scalar::interval::Interval::point", "copies"),
+    exact("scalar::interval::Interval::possibly_lt", "comparisons"),
+    exact("scalar::interval::Interval::sign3", "comparisons"),
+    encloses("scalar::interval::Interval::width", "the best bound or one step wider"),
 ];

@@ -322,3 +322,23 @@ fn special_inputs_backwards() {
     }
     none(&faults);
 }
+
+/// Two curved strokes meet in a corner with retracted handles: from the corner itself the quotient of the tangent disks has no
+/// value at the other stroke's end and its largest ones beside it, and inside the corner no disk has any size.
+#[test]
+fn corners_with_retracted_handles() {
+    let strokes = vec![open(vec![
+        cubic([[237.463, 448.56], [228.095, 448.56], [210.92, 413.429], [210.92, 413.429]]),
+        cubic([[210.92, 413.429], [210.92, 413.429], [225.753, 393.911], [225.753, 388.447]]),
+    ])];
+    let case = Case::new("retracted corner", &strokes, 1e-4);
+    for segment in 0..2 {
+        for k in 1..100 {
+            let t = f64::from(k) / 100.0;
+            let p = strokes[0].cubics[segment as usize].eval(&t);
+            let (ours, theirs) = (case.model.medial.lfs(&p), case.checker.lfs(0, segment as usize, t));
+            assert!((ours - theirs).abs() <= 2e-4 * theirs, "segment {segment} t {t}: {ours}, judge {theirs}");
+        }
+    }
+    none(&ALL.into_iter().flat_map(|e| case.faults(e)).collect::<Vec<_>>());
+}

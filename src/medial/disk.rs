@@ -234,6 +234,12 @@ impl<S: Scalar> Smallest<'_, S> {
         let [from, to] = &arc.moving(segment);
         let (v0, v1) = (from.clone() - &pencil.shift, to.clone() - &pencil.shift);
         let (e0, e1) = (pencil.at(&v0), pencil.at(&v1));
+        // Seen from the retracted end itself the quotient has its largest values here, and none at the end.
+        for (t, e, end) in [(from, &e0, &arc.span[0]), (to, &e1, &arc.span[1])] {
+            if t != end {
+                self.offer(e, &span, t);
+            }
+        }
         let zero = S::zero();
         // Seen from a distance of its own length or more, an arc has one maximum inside, or none.
         let far = e1.delta.minus(&e0.delta).norm_sq() < e0.b.clone().min(e1.b.clone());

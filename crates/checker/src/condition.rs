@@ -343,7 +343,8 @@ impl Judge<'_> {
             } else {
                 here + direction * step
             };
-            if self.evaluator.coarse(point(next)).0 >= limit {
+            let (near, slack) = self.evaluator.coarse(point(next));
+            if near + slack >= limit && self.evaluator.fine(point(next)).lfs >= limit {
                 let (mut inside, mut outside) = (here, next);
                 for _ in 0..24 {
                     let m = 0.5 * (inside + outside);

@@ -265,3 +265,117 @@ impl<'s> Solid<'s> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reconstruct::connect2d::connect;
+    use feature_sampling::geometry::Point;
+
+    /// The steps of the module's header by rescanning everything, with wedges counted around each site by angle.
+    struct Rescan<'s> {
+        sites: &'s Sites,
+        inside: Vec<bool>,
+        frame: Vec<bool>,
+    }
+
+    impl Rescan<'_> {
+        fn is_inside(&self, face: u32) -> bool {
+            face != OUTER && self.inside[face as usize]
+        }
+
+        fn is_boundary(&self, edge: u32) -> bool {
+            let [a, b] = self.sites.edge(edge).faces.map(|face| self.is_inside(face));
+            a != b || (!a && !b && self.frame[edge as usize])
+        }
+
+        fn wedges(&self, site: u32) -> usize {
+            let centre = self.sites.point(site);
+            let mut spokes: Vec<(f64, u32)> = self
+                .sites
+                .edges_at(site)
+                .iter()
+                .map(|&edge| {
+                    let v = self.sites.point(self.sites.edge(edge).other(site)).minus(&centre);
+                    (v.y.atan2(v.x), edge)
+                })
+                .collect();
+            spokes.sort_by(|a, b| a.0.total_cmp(&b.0));
+            // The sector after each spoke, counter-clockwise: the face that two consecutive spokes share, if there is one.
+            let sector = |i: usize| {
+                let (a, b) = (self.sites.edge(spokes[i].1), self.sites.edge(spokes[(i + 1) % spokes.len()].1));
+                let corners = [site, a.other(site), b.other(site)];
+                let shared = a
+                    .faces
+                    .into_iter()
+                    .find(|face| *face != OUTER && corners.iter().all(|c| self.sites.face(*face).corners.contains(c)));
+                shared.is_some_and(|face| self.is_inside(face))
+            };
+            let n = spokes.len();
+            let inside: Vec<bool> = (0..n).map(sector).collect();
+            let wall = |i: usize| self.frame[spokes[i].1 as usize];
+            let starts = (0..n).filter(|&i| !inside[i] && (inside[(i + n - 1) % n] || wall(i))).count();
+            if starts == 0 { usize::from(inside.iter().any(|i| !i)) } else { starts }
+        }
+
+        fn best(&self, cost: impl Fn(u32) -> Option<f64>) -> Option<u32> {
+            let faces = (0..).take(self.sites.faces().len());
+            let candidates = faces.filter_map(|face| Some((cost(face)?, self.sites.face(face).corners, face)));
+            candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|best| best.2)
+        }
+
+        fn length(&self, edge: u32) -> f64 {
+            self.sites.edge(edge).length()
+        }
+
+        fn run(mut self) -> Pairs {
+            loop {
+                let growth = |face: u32| {
+                    let sides = self.sites.face(face).sides;
+                    let eligible = |&side: &u32| {
+                        self.is_boundary(side) && self.sites.edge(side).ends.iter().any(|&end| self.wedges(end) >= 2)
+                    };
+                    let sign = |side: u32| if self.is_boundary(side) { -1.0 } else { 1.0 };
+                    (!self.is_inside(face) && sides.iter().any(eligible))
+                        .then(|| sides.into_iter().map(|side| sign(side) * self.length(side)).sum())
+                };
+                let Some(face) = self.best(growth) else { break };
+                self.inside[face as usize] = true;
+            }
+            self.frame.fill(false);
+            loop {
+                let carving = |face: u32| {
+                    let shape = self.sites.face(face);
+                    let places = (0..3).filter(|&i| {
+                        self.is_inside(face) && self.is_boundary(shape.sides[i]) && self.wedges(shape.corners[i]) == 0
+                    });
+                    let cost =
+                        |i: usize| (0..3).map(|k| if k == i { -1.0 } else { 1.0 } * self.length(shape.sides[k])).sum();
+                    places.map(cost).min_by(f64::total_cmp)
+                };
+                let Some(face) = self.best(carving) else { break };
+                self.inside[face as usize] = false;
+            }
+            let edges = (0..).take(self.sites.edges().len());
+            edges.filter(|&edge| self.is_boundary(edge)).map(|edge| self.sites.edge(edge).ends).collect()
+        }
+    }
+
+    #[test]
+    fn heaps_give_what_rescanning_gives() {
+        let mut state = 3_u64;
+        let mut unit = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1 << 24)
+        };
+        for round in 0..60 {
+            let points: Vec<_> = (0..40).map(|_| Point::new(unit(), unit() * f64::from(1 + round % 3))).collect();
+            let sites = Sites::new(&points).expect("finite");
+            let mut frame = vec![false; sites.edges().len()];
+            connect(&sites, &mut frame);
+            let start = Solid::new(&sites, &frame);
+            let slow = Rescan { sites: &sites, inside: start.inside.clone(), frame: frame.clone() }.run();
+            assert_eq!(polygon(&sites, &frame), slow, "round {round}");
+        }
+    }
+}

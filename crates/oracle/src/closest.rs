@@ -3,7 +3,7 @@
 //! Brute force is quick and good to about nine digits of the parameter, which is enough for sixteen of the distance (it is
 //! stationary there). Where it finds less than the kernel did, or the kernel less than it, [`Exact distances`](Closest)
 //! decide: the squared distance at a double parameter is a number with finitely many bits, and the true minimum is at an
-//! end or at a root of the quintic, which [`Sturm`](crate::sturm::Sturm) isolates to as many bits as asked.
+//! end or at a root of the quintic, which [`Sturm`] isolates to as many bits as asked.
 
 use crate::dyadic::Dyadic;
 use crate::exact::Exact;

@@ -98,7 +98,7 @@ fn compare_disks(name: &str, strokes: &[Stroke], random: &mut Random, rounds: u3
                         if touchings.iter().any(|c| c.distance(q) < 1e-8 * diagonal) {
                             continue;
                         }
-                        if mine.min(theirs) > 100.0 * diagonal {
+                        if mine.min(theirs) > 10.0 * diagonal {
                             continue;
                         }
                         // A radius of touching branches is known to the coordinates' noise.

@@ -54,6 +54,10 @@ struct Search<'f, S> {
     pencil: Option<(u32, bool, Pencil<S>)>,
 }
 
+/// An arc that passes close to the foot is halved so often at most: what is left is shorter than the stretch on which two
+/// strokes count as touching.
+const HALVINGS: u32 = 30;
+
 /// What a [`Guard`] remembers of an arc.
 type Guarded<S> = (u32, Aabb<S>);
 
@@ -249,8 +253,8 @@ impl<S: Scalar> Smallest<'_, S> {
             let e = pencil.at(&v);
             self.offer(&e, &span, &(v.clone() + &pencil.shift));
             let at_v = pencil.at(&v);
-            self.search_span(&span, (v0, e0), (v.clone(), e));
-            self.search_span(&span, (v, at_v), (v1, e1));
+            self.search_beside(&span, (v.clone(), e), (v0, e0));
+            self.search_beside(&span, (v, at_v), (v1, e1));
         } else if let Some(u) = pencil.joint_offset(&v0, &v1) {
             // The arc starts (or ends) at the joint that f is u away from. Where the curvature jumps there the quotient
             // changes over parameters of the order of u, and its maximum lies near √u.
@@ -274,9 +278,36 @@ impl<S: Scalar> Smallest<'_, S> {
                 }
                 inner = (v, outer);
             }
-        } else {
+        } else if far {
             self.search_span(&span, (v0, e0), (v1, e1));
+        } else if e0.b < e1.b {
+            self.search_beside(&span, (v0, e0), (v1, e1));
+        } else {
+            self.search_beside(&span, (v1, e1), (v0, e0));
         }
+    }
+
+    /// Searches the arc between its end near the foot and its end away from it. Halved towards the near end, every piece is
+    /// seen from its own length or more, but the last, which is nothing.
+    fn search_beside(&mut self, span: &Span<'_, S>, near: (S, Values<S>), far: (S, Values<S>)) {
+        let (at, e) = near;
+        let (mut end, mut outer) = far;
+        for _ in 0..HALVINGS {
+            if outer.delta.minus(&e.delta).norm_sq() < e.b.clone().min(outer.b.clone()) {
+                break;
+            }
+            let middle = if at < end { S::midpoint(&at, &end) } else { S::midpoint(&end, &at) };
+            let (inner, again) = (span.pencil.at(&middle), span.pencil.at(&middle));
+            self.offer(&inner, span, &(middle.clone() + &span.pencil.shift));
+            self.search_ordered(span, (middle.clone(), again), (end, outer));
+            (end, outer) = (middle, inner);
+        }
+        self.search_ordered(span, (at, e), (end, outer));
+    }
+
+    /// [`Self::search_span`] of two parameters in either order.
+    fn search_ordered(&mut self, span: &Span<'_, S>, a: (S, Values<S>), b: (S, Values<S>)) {
+        if a.0 < b.0 { self.search_span(span, a, b) } else { self.search_span(span, b, a) }
     }
 
     /// Offers the inner maximum of A/B between two parameters, if there is one.
@@ -308,10 +339,13 @@ impl<S: Scalar> Smallest<'_, S> {
             return;
         }
         if rises != falls {
-            // Rising at both ends, or falling at both: a maximum and a minimum can hide between if the slope's own extremum
-            // has the other sign.
-            let (bend0, bend1) = (pencil.slope(&v0).1, pencil.slope(&v1).1);
-            let hidden = if rises { bend0 < zero && bend1 > zero } else { bend0 > zero && bend1 < zero };
+            // Rising at both ends, or falling at both: a maximum and a minimum can hide between. They do where the slope,
+            // followed from either end along its own tangent, would change its sign within the span.
+            let ((s0, bend0), (s1, bend1)) = (pencil.slope(&v0), pencil.slope(&v1));
+            let length = v1.clone() - &v0;
+            let turn = if rises { S::one() } else { -S::one() };
+            let dips = |s: S, bend: S| bend < zero && s < -bend * &length;
+            let hidden = dips(s0 * &turn, bend0 * &turn) || dips(s1 * &turn, -(bend1 * &turn));
             if !hidden {
                 return;
             }

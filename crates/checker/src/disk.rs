@@ -221,6 +221,12 @@ impl Search<'_> {
 
     /// The maximum of k on a piece that is small against its distance.
     fn far_maximum(&mut self, cubic: usize, t0: f64, t1: f64) {
+        for t in [t0, t1] {
+            self.far_point(cubic, t);
+        }
+        // At an end with a retracted handle the derivative vanishes: its sign is asked a little inside.
+        let hair = 1e-7 * (t1 - t0);
+        let (t0, t1) = (t0 + hair, t1 - hair);
         let tm = 0.5 * (t0 + t1);
         let g = [self.far_point(cubic, t0), self.far_point(cubic, tm), self.far_point(cubic, t1)];
         for (a, b, ga, gb) in [(t0, tm, g[0], g[1]), (tm, t1, g[1], g[2])] {

@@ -299,7 +299,11 @@ impl<S: Scalar> Smallest<'_, S> {
             let middle = if at < end { S::midpoint(&at, &end) } else { S::midpoint(&end, &at) };
             let (inner, again) = (span.pencil.at(&middle), span.pencil.at(&middle));
             self.offer(&inner, span, &(middle.clone() + &span.pencil.shift));
-            self.search_ordered(span, (middle.clone(), again), (end, outer));
+            // A disk reaches no farther than its diameter.
+            let beyond = span.pencil.touching > S::zero() && inner.b > self.radius_sq.clone().mul_pow2(2);
+            if !beyond {
+                self.search_ordered(span, (middle.clone(), again), (end, outer));
+            }
             (end, outer) = (middle, inner);
         }
         self.search_ordered(span, (at, e), (end, outer));

@@ -233,10 +233,11 @@ impl<S: Scalar> Pencil<S> {
 
     /// The parameter in [v0, v1] where A'B − AB' is smallest (or largest), by bisection on its derivative.
     ///
-    /// Precise enough to see the sign there: it stops at 2^−20 of the interval.
+    /// Precise enough to see the sign there: it stops at 2^−10 of the interval; narrower dips are not looked
+    /// for.
     pub(super) fn extremal_slope(&self, v0: &S, v1: &S, smallest: bool) -> S {
         let (mut lo, mut hi) = (v0.clone(), v1.clone());
-        for _ in 0..20 {
+        for _ in 0..10 {
             let v = S::midpoint(&lo, &hi);
             let (slope, bend) = self.slope(&v);
             // Past the sign that is looked for, nothing smaller or larger is needed.

@@ -54,10 +54,6 @@ struct Search<'f, S> {
     pencil: Option<(u32, bool, Pencil<S>)>,
 }
 
-/// An arc that passes close to the foot is halved so often at most: what is left is shorter than the stretch on which two
-/// strokes count as touching.
-const HALVINGS: u32 = 30;
-
 /// What a [`Guard`] remembers of an arc.
 type Guarded<S> = (u32, Aabb<S>);
 
@@ -288,11 +284,12 @@ impl<S: Scalar> Smallest<'_, S> {
     }
 
     /// Searches the arc between its end near the foot and its end away from it. Halved towards the near end, every piece is
-    /// seen from its own length or more, but the last, which is nothing.
+    /// seen from its own length or more, but perhaps the last.
     fn search_beside(&mut self, span: &Span<'_, S>, near: (S, Values<S>), far: (S, Values<S>)) {
         let (at, e) = near;
         let (mut end, mut outer) = far;
-        for _ in 0..HALVINGS {
+        // A quarter of the scalar's digits: nearer to the foot differences are noise, in f32 soon.
+        for _ in 0..S::BITS / 4 {
             if outer.delta.minus(&e.delta).norm_sq() < e.b.clone().min(outer.b.clone()) {
                 break;
             }

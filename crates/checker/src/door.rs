@@ -226,7 +226,7 @@ impl Drawing {
                 };
             }
         }
-        let displacement = smooth(&mut obstacles, &mut vertices, diagonal, options);
+        let displacement = smooth(&mut obstacles, &mut vertices, &ends, &paths, diagonal, options);
         let cubics = obstacles
             .iter()
             .map(|c| match straightened(c, diagonal) {
@@ -244,12 +244,48 @@ impl Drawing {
     }
 }
 
+/// The pairs of ends that make a joint, each once: where a path goes on from one cubic to the next, and where two open
+/// paths end in one vertex.
+fn joints(paths: &[Path], ends: &[[usize; 2]], vertices: usize) -> Vec<[End; 2]> {
+    let mut pairs: Vec<[End; 2]> = Vec::new();
+    let mut open = vec![Vec::new(); vertices];
+    for path in paths {
+        let entry = |p: &Piece| End { cubic: p.cubic, last: p.reversed };
+        let exit = |p: &Piece| End { cubic: p.cubic, last: !p.reversed };
+        pairs.extend(path.pieces.windows(2).map(|p| [exit(&p[0]), entry(&p[1])]));
+        let (Some(first), Some(last)) = (path.pieces.first(), path.pieces.last()) else { continue };
+        if path.closed {
+            pairs.push([exit(last), entry(first)]);
+        } else {
+            for end in [entry(first), exit(last)] {
+                open[ends[end.cubic][usize::from(end.last)]].push(end);
+            }
+        }
+    }
+    pairs.extend(open.iter().filter_map(|ends| <[End; 2]>::try_from(ends.as_slice()).ok()));
+    let mut known: Vec<[End; 2]> = Vec::new();
+    for [a, b] in pairs {
+        if a != b && !known.contains(&[a, b]) && !known.contains(&[b, a]) {
+            known.push([a, b]);
+        }
+    }
+    known
+}
+
 /// Rule 4: makes joints smooth in place; returns the largest displacement.
-fn smooth(obstacles: &mut [Control], vertices: &mut [Vertex], diagonal: f64, options: &DoorOptions) -> f64 {
+///
+/// A joint is one of a path, whatever else touches it; only where nothing does, the vertex as a whole is smooth.
+fn smooth(
+    obstacles: &mut [Control],
+    vertices: &mut [Vertex],
+    ends: &[[usize; 2]],
+    paths: &[Path],
+    diagonal: f64,
+    options: &DoorOptions,
+) -> f64 {
     let limit = options.corner_angle.to_radians();
     let mut moved: f64 = 0.0;
-    for vertex in vertices.iter_mut() {
-        let &[a, b] = vertex.branches.as_slice() else { continue };
+    for [a, b] in joints(paths, ends, vertices.len()) {
         let (handle, root) = (|e: End| if e.last { 2 } else { 1 }, |e: End| if e.last { 3 } else { 0 });
         let (pa, pb) = (obstacles[a.cubic][root(a)], obstacles[b.cubic][root(b)]);
         let (ha, hb) = (obstacles[a.cubic][handle(a)] - pa, obstacles[b.cubic][handle(b)] - pb);
@@ -265,11 +301,11 @@ fn smooth(obstacles: &mut [Control], vertices: &mut [Vertex], diagonal: f64, opt
             continue;
         }
         moved = moved.max(shift);
-        vertex.smooth = true;
-        // A kink of rounding size means a tangent that is continuous already: nothing is gained by moving handles.
         let u = (ua - ub).unit();
         obstacles[a.cubic][handle(a)] = pa + u * la;
         obstacles[b.cubic][handle(b)] = pb - u * lb;
+        let vertex = &mut vertices[ends[a.cubic][usize::from(a.last)]];
+        vertex.smooth = vertex.branches.len() == 2;
     }
     moved
 }

@@ -65,8 +65,8 @@ fn lfs_and_radii_agree_with_the_truth() {
             }
         }
         println!("{name}: lfs within {worst:?} (lowest {low:.1e}), radii within {worst_radius:?}");
-        assert!(worst.0 <= 1e-4, "{name}: lfs off by {worst:?}");
-        assert!(worst_radius.0 <= 1e-4, "{name}: radius off by {worst_radius:?}");
+        assert!(worst.0 <= 2e-5, "{name}: lfs off by {worst:?}");
+        assert!(worst_radius.0 <= 1e-9, "{name}: radius off by {worst_radius:?}");
     }
 }
 
@@ -114,8 +114,8 @@ fn compare_disks(name: &str, strokes: &[Stroke], random: &mut Random, rounds: u3
         }
     }
     println!("{name}: disks within {:.1e}", worst.0);
-    // Ten times better than what is asked of radii.
-    assert!(worst.0 <= 1e-5, "{name}: radius off by {:e}: {}", worst.0, worst.1);
+    // Where branches touch nearby, the judge's plain differences are good for no more.
+    assert!(worst.0 <= 1e-6, "{name}: radius off by {:e}: {}", worst.0, worst.1);
     worst.0
 }
 

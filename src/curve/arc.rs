@@ -2,10 +2,9 @@
 //!
 //! A cubic is cut at its inflections and at the extrema of its curvature, and then until no piece turns by more than 30°.
 //! Inversion in a foot point turns the family of its tangent disks into parallel half-planes and keeps vertices (extrema of
-//! curvature are a notion of circle geometry), so the image of such a *spiral arc* is again a spiral. On it a linear function
-//! has at most one maximum inside if the image turns by less than half a turn; this is proved for arcs seen from at least
-//! their own chord's length away. For nearer arcs it is not, and the search splits them where they are nearest and looks
-//! twice ([`crate::medial::disk`]; `docs/mathematics.md`, section 5).
+//! curvature are a notion of circle geometry), so the image of such a *spiral arc* is again a spiral: seen from its own
+//! chord's length away, a linear function has one maximum on it at most. That makes the search for the disk it bounds short;
+//! its result does not depend on it ([`crate::medial::disk`]; `docs/mathematics.md`, section 5).
 
 use super::Segment;
 use crate::bezier::critical;

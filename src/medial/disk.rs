@@ -5,16 +5,19 @@
 //! current disk and shrinking at each arc that enters it, finds the infimum. The paper restarts a closest-point search over
 //! all segments after each shrinking instead. A disk that nothing bounds is a half-plane: it has no medial point.
 //!
-//! On one arc the quotient A/B of `medial::pencil` is looked at in both ends, and where its slope changes from rising to
-//! falling the maximum between is found by bracketed Newton (for how many there can be see [`crate::curve::arc`]). The result
-//! is exact to a few roundoffs times the condition of the quotient; it errs to a radius that is too large, by the noise of
-//! the coordinates, only where a plain difference was the best form at hand.
+//! On one arc, A/B of `medial::pencil` is to be compared with β = 1/(2r) of the disk so far. A − βB is a polynomial of degree
+//! six at most; where its coefficients in Bernstein's basis are all negative, no point of the arc lies inside the disk. These
+//! coefficients follow from the values and derivatives at the ends of a piece. A piece that they do not rule out is split,
+//! at the maximum of A/B (bracketed Newton) where there is one inside, and its parts are asked again: no maximum is missed,
+//! however many there are. A radius is exact to a few roundoffs times the condition of the quotient, and never more than
+//! 2^(−3/4 digits) too large for a maximum that no slope showed; it errs to a radius that is too large, by the noise of the
+//! coordinates, only where a plain difference was the best form at hand.
 
 use super::foot::Foot;
 use super::pencil::{Pencil, Values};
 use crate::bezier::newton::falling_zero;
 use crate::curve::{Arc, Curve, CurveParam, Segment};
-use crate::geometry::{Aabb, Point};
+use crate::geometry::{Aabb, Point, Vector};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -41,6 +44,10 @@ struct Smallest<'f, S> {
     foot: &'f Foot<S>,
     /// 1/(2r); 0 while nothing bounds the disk.
     bend: S,
+    /// `bend`, enlarged by the slack.
+    bend_loose: S,
+    /// How much larger than the infimum the radius may be, relatively: 2 to the power of −3/4 of the scalar's digits.
+    slack: S,
     centre: Point<S>,
     radius: S,
     radius_sq: S,
@@ -150,19 +157,40 @@ pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guar
     search.result(curve)
 }
 
-/// What is looked at: an arc through a pencil, to a precision in its parameter.
+/// What is looked at: an arc through a pencil.
 struct Span<'p, S> {
     pencil: &'p Pencil<S>,
     arc: &'p Arc<S>,
     index: u32,
-    width: S,
 }
+
+/// A parameter of a pencil with the values there.
+struct Place<S> {
+    v: S,
+    values: Values<S>,
+}
+
+impl<S: Scalar> Place<S> {
+    #[inline]
+    fn new(pencil: &Pencil<S>, v: S) -> Self {
+        let values = pencil.at(&v);
+        Self { v, values }
+    }
+}
+
+/// Pieces of an arc that wait while the first of them is searched.
+const DEPTH: usize = 48;
+
+/// Pieces of one arc that are looked at, at most: what is left then counts as ruled out. Real drawings need a fifth.
+const PIECES: usize = 512;
 
 impl<'f, S: Scalar> Search<'f, S> {
     fn new(foot: &'f Foot<S>) -> Self {
         let smallest = Smallest {
             foot,
             bend: S::zero(),
+            bend_loose: S::zero(),
+            slack: S::one().mul_pow2(-(S::BITS * 3 / 4).cast_signed()),
             centre: foot.point.clone(),
             radius: S::infinity(),
             radius_sq: S::infinity(),
@@ -226,143 +254,102 @@ impl<S: Scalar> Smallest<'_, S> {
     }
 
     fn search_arc(&mut self, pencil: &Pencil<S>, segment: &Segment<S>, arc: &Arc<S>, index: u32) {
-        let [from, to] = &arc.span;
-        let span = Span { width: S::unit_roundoff().mul_pow2(6), pencil, arc, index };
-        for t in [from, to] {
-            self.offer(&pencil.at(&(t.clone() - &pencil.shift)), &span, t);
-        }
-        let [from, to] = &arc.moving(segment);
-        let (v0, v1) = (from.clone() - &pencil.shift, to.clone() - &pencil.shift);
-        let (e0, e1) = (pencil.at(&v0), pencil.at(&v1));
-        // Seen from the retracted end itself the quotient has its largest values here, and none at the end.
-        for (t, e, end) in [(from, &e0, &arc.span[0]), (to, &e1, &arc.span[1])] {
-            if t != end {
-                self.offer(e, &span, t);
+        let span = Span { pencil, arc, index };
+        let moving = arc.moving(segment);
+        let ends = [0, 1].map(|i| Place::new(pencil, moving[i].clone() - &pencil.shift));
+        for i in 0..2 {
+            self.offer(&ends[i].values, &span, &moving[i]);
+            // Seen from the retracted end itself the quotient has its largest values beside it, and none at the end.
+            if moving[i] != arc.span[i] {
+                let t = &arc.span[i];
+                self.offer(&pencil.at(&(t.clone() - &pencil.shift)), &span, t);
             }
         }
-        let zero = S::zero();
-        // Seen from a distance of its own length or more, an arc has one maximum inside, or none.
-        let far = e1.delta.minus(&e0.delta).norm_sq() < e0.b.clone().min(e1.b.clone());
-        if !far && e0.approach < zero && e1.approach > zero {
-            // The point nearest to f lies inside: near it the quotient can change on a scale that the ends do not show.
-            let v = falling_zero(v0.clone(), v1.clone(), &span.width, |v| pencil.recession(v));
-            let e = pencil.at(&v);
-            self.offer(&e, &span, &(v.clone() + &pencil.shift));
-            let at_v = pencil.at(&v);
-            self.search_beside(&span, (v.clone(), e), (v0, e0));
-            self.search_beside(&span, (v, at_v), (v1, e1));
-        } else if let Some(u) = pencil.joint_offset(&v0, &v1) {
-            // The arc starts (or ends) at the joint that f is u away from. Where the curvature jumps there the quotient
-            // changes over parameters of the order of u, and its maximum lies near √u.
-            let sign = if v1 > -v0.clone() { S::one() } else { -S::one() };
-            let reach = v1.clone().max(-v0.clone());
-            let mut inner = (S::zero(), if sign > S::zero() { e0 } else { e1 });
-            let ends = [u.clone() * &S::int(8), u.sqrt().half(), reach];
-            for v in ends {
-                if v <= inner.0 || v > v1.clone().max(-v0.clone()) {
-                    continue;
-                }
-                let at = v.clone() * &sign;
-                let e = pencil.at(&at);
-                self.offer(&e, &span, &(at.clone() + &pencil.shift));
-                let outer = pencil.at(&at);
-                let from = inner.0.clone() * &sign;
-                if sign > S::zero() {
-                    self.search_span(&span, (from, inner.1), (at, e));
-                } else {
-                    self.search_span(&span, (at, e), (from, inner.1));
-                }
-                inner = (v, outer);
-            }
-        } else if far {
-            self.search_span(&span, (v0, e0), (v1, e1));
-        } else if e0.b < e1.b {
-            self.search_beside(&span, (v0, e0), (v1, e1));
-        } else {
-            self.search_beside(&span, (v1, e1), (v0, e0));
-        }
+        let [start, end] = ends;
+        self.search(&span, start, end);
     }
 
-    /// Searches the arc between its end near the foot and its end away from it. Halved towards the near end, every piece is
-    /// seen from its own length or more, but perhaps the last.
-    fn search_beside(&mut self, span: &Span<'_, S>, near: (S, Values<S>), far: (S, Values<S>)) {
-        let (at, e) = near;
-        let (mut end, mut outer) = far;
-        // A quarter of the scalar's digits: nearer to the foot differences are noise, in f32 soon.
-        for _ in 0..S::BITS / 4 {
-            if outer.delta.minus(&e.delta).norm_sq() < e.b.clone().min(outer.b.clone()) {
-                break;
+    /// Offers maxima of A/B between two places until no piece between can hold a larger one.
+    ///
+    /// A piece that [`Self::excludes`] does not rule out is split: at the foot's nearest point on it, where that lies inside
+    /// (near it the quotient changes on a scale that the ends do not show); at a maximum, where the slopes at its ends
+    /// promise one; else in its middle.
+    fn search(&mut self, span: &Span<'_, S>, start: Place<S>, end: Place<S>) {
+        let (pencil, zero) = (span.pencil, S::zero());
+        let width = S::unit_roundoff().mul_pow2(6);
+        let least = self.slack.clone() * &(end.v.clone() - &start.v);
+        let mut left = start;
+        let mut rights: ArrayVec<Place<S>, DEPTH> = ArrayVec::new();
+        rights.push(end);
+        for _ in 0..PIECES {
+            let Some(right) = rights.last() else { return };
+            let length = right.v.clone() - &left.v;
+            if length <= least || rights.is_full() || self.excludes(&left, right, &length) {
+                left = match rights.pop() {
+                    Some(right) => right,
+                    None => return,
+                };
+                continue;
             }
-            let middle = if at < end { S::midpoint(&at, &end) } else { S::midpoint(&end, &at) };
-            let (inner, again) = (span.pencil.at(&middle), span.pencil.at(&middle));
-            self.offer(&inner, span, &(middle.clone() + &span.pencil.shift));
-            // A disk reaches no farther than its diameter.
-            let beyond = span.pencil.touching > S::zero() && inner.b > self.radius_sq.clone().mul_pow2(2);
-            if !beyond {
-                self.search_ordered(span, (middle.clone(), again), (end, outer));
-            }
-            (end, outer) = (middle, inner);
-        }
-        self.search_ordered(span, (at, e), (end, outer));
-    }
-
-    /// [`Self::search_span`] of two parameters in either order.
-    fn search_ordered(&mut self, span: &Span<'_, S>, a: (S, Values<S>), b: (S, Values<S>)) {
-        if a.0 < b.0 { self.search_span(span, a, b) } else { self.search_span(span, b, a) }
-    }
-
-    /// Offers the inner maximum of A/B between two parameters, if there is one.
-    fn search_span(&mut self, span: &Span<'_, S>, (mut v0, mut e0): (S, Values<S>), (mut v1, mut e1): (S, Values<S>)) {
-        let Span { pencil, width, .. } = span;
-        let zero = S::zero();
-        // Only the part with A > 0 counts. Where A changes sign its zero takes the place of the end: A' B has the slope's sign.
-        let rise = |v: &S| {
-            let (a, slope) = pencil.a_and_slope(v);
-            (-a, -slope)
-        };
-        if e0.a > zero && e1.a < zero {
-            v1 = falling_zero(v0.clone(), v1, width, |v| pencil.a_and_slope(v));
-            e1 = pencil.at(&v1);
-        } else if e0.a < zero && e1.a > zero {
-            v0 = falling_zero(v0, v1.clone(), width, rise);
-            e0 = pencil.at(&v0);
-        } else if e0.a <= zero && e1.a <= zero {
-            // The arc can still rise above the tangent line between its ends.
-            let Some(top) = pencil.crest(&v0, &v1, width) else { return };
-            v0 = falling_zero(v0, top.clone(), width, rise);
-            v1 = falling_zero(top, v1, width, |v| pencil.a_and_slope(v));
-            (e0, e1) = (pencil.at(&v0), pencil.at(&v1));
-        }
-        // Where B vanishes (the foot itself at a fan or corner) the quotient comes from −∞: it rises away from there.
-        let rises = e0.slope > zero || e0.b.is_zero();
-        let falls = e1.slope < zero || e1.b.is_zero();
-        if !rises && !falls {
-            return;
-        }
-        if rises != falls {
-            // Rising at both ends, or falling at both: a maximum and a minimum can hide between. They do where the slope,
-            // followed from either end along its own tangent, would change its sign within the span.
-            let ((s0, bend0), (s1, bend1)) = (pencil.slope(&v0), pencil.slope(&v1));
-            let length = v1.clone() - &v0;
-            let turn = if rises { S::one() } else { -S::one() };
-            let dips = |s: S, bend: S| bend < zero && s < -bend * &length;
-            let hidden = dips(s0 * &turn, bend0 * &turn) || dips(s1 * &turn, -(bend1 * &turn));
-            if !hidden {
-                return;
-            }
-            let turn = pencil.extremal_slope(&v0, &v1, rises);
-            let slope = pencil.slope(&turn).0;
-            if rises && slope < zero {
-                v1 = turn;
-            } else if falls && slope > zero {
-                v0 = turn;
+            let (l, r) = (&left.values, &right.values);
+            let near = r.delta.minus(&l.delta).norm_sq() >= l.b.clone().min(r.b.clone());
+            let split = if near && l.approach < zero && r.approach > zero {
+                falling_zero(left.v.clone(), right.v.clone(), &width, |v| pencil.recession(v))
+            } else if l.slope > zero && r.slope < zero {
+                falling_zero(left.v.clone(), right.v.clone(), &width, |v| pencil.slope(v))
             } else {
+                S::midpoint(&left.v, &right.v)
+            };
+            // What was found so close to an end that nothing is split off is seen with its neighbourhood.
+            let margin = length.mul_pow2(-10);
+            let place = Place::new(pencil, split);
+            self.offer(&place.values, span, &(place.v.clone() + &pencil.shift));
+            let inside = place.v.clone() - &left.v > margin && right.v.clone() - &place.v > margin;
+            let place = if inside {
+                place
+            } else {
+                let middle = Place::new(pencil, S::midpoint(&left.v, &right.v));
+                self.offer(&middle.values, span, &(middle.v.clone() + &pencil.shift));
+                middle
+            };
+            if rights.try_push(place).is_err() {
                 return;
             }
         }
-        let v = falling_zero(v0, v1, width, |v| pencil.slope(v));
-        let e = pencil.at(&v);
-        self.offer(&e, span, &(v + &pencil.shift));
+    }
+
+    /// No point between two places bounds a disk smaller than the current one by more than the slack: all coefficients of
+    /// A − β B in Bernstein's basis are negative, up to what [`Self::leaves_tangent`] ignores. β is 1/(2r), a little
+    /// enlarged.
+    fn excludes(&self, left: &Place<S>, right: &Place<S>, length: &S) -> bool {
+        if self.radius.is_zero() {
+            return true;
+        }
+        let third = length.clone() / &S::int(3);
+        let (l, r) = (&left.values, &right.values);
+        let a =
+            [l.a.clone(), l.a_slope.clone() * &third + &l.a, r.a.clone() - &(r.a_slope.clone() * &third), r.a.clone()];
+        let (d0, d3) = (&l.delta, &r.delta);
+        let d1 = d0.plus_scaled(&third, &l.delta_slope);
+        let d2 = d3.plus_scaled(&-third, &r.delta_slope);
+        let size = |v: &Vector<S>| v.x.clone().abs().max(v.y.clone().abs());
+        let noise = size(d0).max(size(&d1)).max(size(&d2)).max(size(d3)) * &S::unit_roundoff().mul_pow2(3);
+        if self.touch.is_none() {
+            return a.iter().all(|a| *a <= noise);
+        }
+        let [a0, a1, a2, a3] = a;
+        let beta = &self.bend_loose;
+        let below = |a: S, b: S, weight: i32| a <= b * beta + &(noise.clone() * &S::int(weight));
+        let three = S::int(3);
+        let nine = S::int(9);
+        let a12 = a1.clone() + &a2;
+        below(a0.clone(), l.b.clone(), 1)
+            && below(a3.clone(), r.b.clone(), 1)
+            && below(a0.clone() + &a1, d0.dot(&d1).twice(), 2)
+            && below(a2.clone() + &a3, d2.dot(d3).twice(), 2)
+            && below(a1.clone() * &three + &a0 + &a2, d0.dot(&d2).twice() + &(d1.norm_sq() * &three), 5)
+            && below(a2 * &three + &a1 + &a3, d1.dot(d3).twice() + &(d2.norm_sq() * &three), 5)
+            && below(a12 * &nine + &a0 + &a3, (d0.dot(d3) + &(d1.dot(&d2) * &nine)).twice(), 20)
     }
 
     /// The chord to the point makes an angle with the tangent that is more than rounding: a straight line bounds no disk.
@@ -388,6 +375,7 @@ impl<S: Scalar> Smallest<'_, S> {
         self.centre = self.foot.point.plus_scaled(&radius, &self.foot.direction);
         self.radius_sq = radius.clone().square();
         self.bend = if touching { S::infinity() } else { e.a.clone() / &e.b };
+        self.bend_loose = self.bend.clone() * &self.slack + &self.bend;
         self.radius = radius;
         self.touch = Some(Touch { at: CurveParam { segment: span.arc.segment, t: t.clone() }, arc: span.index });
     }

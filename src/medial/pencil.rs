@@ -22,10 +22,9 @@
 //! From A the noise of the coordinates is subtracted, so that rounding never makes a disk collapse, nor bends a straight
 //! line.
 //!
-//! Derivations: `docs/mathematics.md`, section 4; section 6 for joints where the curvature jumps.
+//! Derivations: `docs/mathematics.md`, section 4.
 
 use super::foot::{Foot, Side};
-use crate::bezier::newton::falling_zero;
 use crate::curve::{Curve, EndId, JointKind, Segment};
 use crate::geometry::Vector;
 use crate::scalar::Scalar;
@@ -39,8 +38,6 @@ pub(super) struct Pencil<S> {
     delta: [Vector<S>; 4],
     /// Parameter of the segment where v = 0.
     pub(super) shift: S,
-    /// For a foot beside a joint, seen across it: how far, in parameters of its own segment. 0 otherwise.
-    offset: S,
     /// Squared distances up to this are a touching: the noise of plain differences. 0 for the other forms.
     pub(super) touching: S,
 }
@@ -55,6 +52,10 @@ pub(super) struct Values<S> {
     pub(super) slope: S,
     /// Δ.
     pub(super) delta: Vector<S>,
+    /// A'.
+    pub(super) a_slope: S,
+    /// Δ'.
+    pub(super) delta_slope: Vector<S>,
     /// B'/2: negative while Δ comes nearer to 0.
     pub(super) approach: S,
 }
@@ -108,7 +109,6 @@ impl<S: Scalar> Pencil<S> {
             a: [d.dot(&origin) - curve.noise, d.dot(a1), d.dot(a2), d.dot(a3)],
             delta: [origin, a1.clone(), a2.clone(), a3.clone()],
             shift: S::zero(),
-            offset: S::zero(),
             touching: (curve.noise.clone() * &S::int(4)).square(),
         }
     }
@@ -125,7 +125,6 @@ impl<S: Scalar> Pencil<S> {
             a: [e0 - curve.noise, e1, S::zero(), S::zero()],
             delta: [d0, d1, a3.clone(), Vector::zero()],
             shift: S::zero(),
-            offset: S::zero(),
             touching: S::zero(),
         }
     }
@@ -145,7 +144,6 @@ impl<S: Scalar> Pencil<S> {
                 a: [d.dot(&b2) - curve.noise, d.dot(&b3), S::zero(), S::zero()],
                 delta: [b1, b2, b3, Vector::zero()],
                 shift,
-                offset: S::zero(),
                 touching: S::zero(),
             };
         }
@@ -154,7 +152,6 @@ impl<S: Scalar> Pencil<S> {
                 a: [S::zero(), d.dot(&b1), d.dot(&b2), d.dot(&b3)],
                 delta: [Vector::zero(), b1, b2, b3],
                 shift,
-                offset: S::zero(),
                 touching: S::zero(),
             };
         }
@@ -175,7 +172,6 @@ impl<S: Scalar> Pencil<S> {
                 a: [a0, d.dot(&b1), d.dot(&b2), d.dot(&b3)],
                 delta: [delta0, b1, b2, b3],
                 shift,
-                offset: u.abs(),
                 touching: S::zero(),
             };
         }
@@ -188,19 +184,12 @@ impl<S: Scalar> Pencil<S> {
         let tangent_e = own.power.derivative(&e);
         let mu = tangent_e.norm() / &speed_q;
         let mu = if tangent_e.dot(&b1) < S::zero() { -mu } else { mu };
-        let offset = u.clone().abs();
         let uk = u * &k;
         let muk = mu * &k;
         let a1 = m.cross(&b1) * &uk;
         let a2 = m.cross(&b2) * &uk + &(b1.cross(&b2) * &muk);
         let a3 = m.cross(&b3) * &uk + &(b1.cross(&b3) * &muk);
-        Self { a: [a0, a1, a2, a3], delta: [delta0, b1, b2, b3], shift, offset, touching: S::zero() }
-    }
-
-    /// The foot's distance from the joint, if the interval [v0, v1] starts or ends there and f is near.
-    pub(super) fn joint_offset(&self, v0: &S, v1: &S) -> Option<S> {
-        let near = self.offset > S::zero() && self.offset < S::one().mul_pow2(-5);
-        (near && (v0.is_zero() || v1.is_zero())).then(|| self.offset.clone())
+        Self { a: [a0, a1, a2, a3], delta: [delta0, b1, b2, b3], shift, touching: S::zero() }
     }
 
     /// A, B and the slope's sign at v = t − shift.
@@ -210,8 +199,8 @@ impl<S: Scalar> Pencil<S> {
         let (d, d_slope) = self.delta_and_slope(v);
         let b = d.norm_sq();
         let approach = d.dot(&d_slope);
-        let slope = a_slope * &b - &(a.clone() * &approach).twice();
-        Values { a, b, slope, delta: d, approach }
+        let slope = a_slope.clone() * &b - &(a.clone() * &approach).twice();
+        Values { a, b, slope, delta: d, a_slope, delta_slope: d_slope, approach }
     }
 
     /// A'B − AB' and its derivative A''B − AB''.
@@ -229,42 +218,6 @@ impl<S: Scalar> Pencil<S> {
         // B'' = 2(|Δ'|² + Δ·Δ''), Δ'' = 2 (d₂ + 3 d₃ v).
         let b_bend = (d_slope.norm_sq() + &d.dot(&d_bend).twice()).twice();
         (a_slope * &b - &(a.clone() * &b_slope), a_bend * &b - &(a * &b_bend))
-    }
-
-    /// The parameter in [v0, v1] where A'B − AB' is smallest (or largest), by bisection on its derivative.
-    ///
-    /// Precise enough to see the sign there: it stops at 2^−10 of the interval; narrower dips are not looked
-    /// for.
-    pub(super) fn extremal_slope(&self, v0: &S, v1: &S, smallest: bool) -> S {
-        let (mut lo, mut hi) = (v0.clone(), v1.clone());
-        for _ in 0..10 {
-            let v = S::midpoint(&lo, &hi);
-            let (slope, bend) = self.slope(&v);
-            // Past the sign that is looked for, nothing smaller or larger is needed.
-            if (smallest && slope < S::zero()) || (!smallest && slope > S::zero()) {
-                return v;
-            }
-            if (bend < S::zero()) == smallest {
-                lo = v;
-            } else {
-                hi = v;
-            }
-        }
-        S::midpoint(&lo, &hi)
-    }
-
-    /// Where A is positive between v0 and v1, at both of which it is not; `None` if it is so nowhere that its slopes at the
-    /// ends would show.
-    pub(super) fn crest(&self, v0: &S, v1: &S, width: &S) -> Option<S> {
-        let (rise, fall) = (self.a_and_slope(v0).1, self.a_and_slope(v1).1);
-        if !(rise > S::zero() && fall < S::zero()) {
-            return None;
-        }
-        let [_, _, a2, a3] = &self.a;
-        let v = falling_zero(v0.clone(), v1.clone(), width, |v| {
-            (self.a_and_slope(v).1, (a3.clone() * v * &S::int(3) + a2).twice())
-        });
-        (self.a_and_slope(&v).0 > S::zero()).then_some(v)
     }
 
     /// −B'/2 and its derivative.

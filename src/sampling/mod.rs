@@ -9,6 +9,8 @@
 //! * [`size`]: how far a sample may serve, from lfs and the floors;
 //! * [`step`]: the next sample; [`chord`]: chord error; [`rho`]: ρ-sampling;
 //! * [`spread`]: a run's samples, evenly spread: a smaller ε' that needs as many, by a few trials;
+//! * [`resumable`]: the same samples one by one, in calls of bounded work, for motor controllers; [`flatten`]: chord error
+//!   alone, one cubic at a time and without a curve;
 //! * [`grading`]: ratio of neighbouring gaps; [`sampler`]: whole paths.
 //!
 //! **Precedence.** Path ends and corners are always samples; then d_min holds; then the upper bounds (ε, chord error, d_max,
@@ -18,7 +20,9 @@
 //! taken as (1 − tolerance) times the estimate.
 
 pub mod chord;
+pub mod flatten;
 pub mod grading;
+pub mod resumable;
 pub mod rho;
 pub mod run;
 pub mod sampler;
@@ -164,6 +168,8 @@ pub enum SamplingError {
     Start,
     /// More samples than [`SamplingOptions::limit`]: raise it, or set d_min.
     Limit(u32),
+    /// The resumable sampler was asked for ρ, grading or even spreading, or for ε without a d_min.
+    NotResumable,
     /// A lent buffer is too small.
     Full(BufferFull),
 }
@@ -183,6 +189,9 @@ impl fmt::Display for SamplingError {
             Self::Grading => write!(f, "the grading ratio must be above 1"),
             Self::Start => write!(f, "the start must lie in [0, 1)"),
             Self::Limit(n) => write!(f, "a path needs more than {n} samples"),
+            Self::NotResumable => {
+                write!(f, "the resumable sampler needs a least distance and takes no rho, grading or even spreading")
+            }
             Self::Full(full) => full.fmt(f),
         }
     }

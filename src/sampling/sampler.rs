@@ -31,7 +31,7 @@ pub fn sample_path<S: Scalar, F: FeatureSize<S>>(
 ) -> Result<(), SamplingError> {
     options.check()?;
     let Some(&p) = curve.paths.get(path as usize) else { return Ok(()) };
-    let sampler = Sampler { curve, features, contacts, index: path, path: p, options };
+    let sampler = Sampler { curve, features, contacts, index: path, options };
     let base = out.items().len();
     sampler.pass(&|_| None, out)?;
     let Some(ratio) = &options.grading else { return Ok(()) };
@@ -82,7 +82,6 @@ struct Sampler<'s, 'c, S, F> {
     features: &'s F,
     contacts: &'s [Contact<S>],
     index: u32,
-    path: Path,
     options: &'s SamplingOptions<S>,
 }
 
@@ -93,64 +92,66 @@ impl<S: Scalar, F: FeatureSize<S>> Sampler<'_, '_, S, F> {
         cap: &impl Fn(&CurveParam<S>) -> Option<S>,
         out: &mut impl Store<Sample<S>>,
     ) -> Result<(), SamplingError> {
-        let count = self.path.count;
-        if !self.path.closed {
-            let mut from = 0;
-            self.fixed(0, 0, Bound::Start, out)?;
-            for k in 1..=count {
-                if k < count && !self.corner_at(k) {
-                    continue;
+        for leg in Legs::new(self.curve, self.index, &self.options.start) {
+            match leg {
+                Leg::Fixed(at, bound) => {
+                    if let Some(point) = self.curve.point(&at) {
+                        let lfs = self.features.lfs(&at, &point);
+                        out.push(Sample { path: self.index, at, point, lfs, bound })?;
+                    }
                 }
-                let run = self.run(from, k);
-                inner_samples(&run, self.features, self.contacts, self.options, &|p| cap(&run.place(p)), out)?;
-                self.fixed(k - 1, 1, if k == count { Bound::End } else { Bound::Corner }, out)?;
-                from = k;
+                Leg::Run(run) => {
+                    inner_samples(&run, self.features, self.contacts, self.options, &|p| cap(&run.place(p)), out)?;
+                }
             }
-            return Ok(());
-        }
-        let total = S::int(i32::try_from(count).unwrap_or(i32::MAX)) * &self.options.start;
-        let begin = self.curve.paths.get(self.index as usize).map_or(0, |_| whole_part(&total, count));
-        let Some(corner) = (0..count).map(|n| (begin + n) % count).find(|&k| self.corner_at(k)) else {
-            let t = (total - &S::int(i32::try_from(begin).unwrap_or(0))).clamp(S::zero(), S::one());
-            return self.loop_from(begin, t, cap, out);
-        };
-        let mut from = 0;
-        self.fixed(corner, 0, Bound::Start, out)?;
-        for k in 1..=count {
-            if k < count && !self.corner_at((corner + k) % count) {
-                continue;
-            }
-            let run = Run { first: corner, ..self.run(from, k) };
-            inner_samples(&run, self.features, self.contacts, self.options, &|p| cap(&run.place(p)), out)?;
-            if k < count {
-                self.fixed((corner + k) % count, 0, Bound::Corner, out)?;
-            }
-            from = k;
         }
         Ok(())
     }
+}
 
-    /// A closed path without corners.
-    fn loop_from(
-        &self,
-        begin: u32,
-        t: S,
-        cap: &impl Fn(&CurveParam<S>) -> Option<S>,
-        out: &mut impl Store<Sample<S>>,
-    ) -> Result<(), SamplingError> {
-        let count = self.path.count;
-        let end = if t > S::zero() { Pos { k: count, t: t.clone() } } else { Pos { k: count - 1, t: S::one() } };
-        let run = Run {
-            curve: self.curve,
-            path: self.path,
-            index: self.index,
-            first: begin,
-            start: Pos { k: 0, t },
-            end,
-            ends: [RunEnd::Seam, RunEnd::Seam],
-        };
-        self.push(run.place(&run.start), Bound::Start, out)?;
-        inner_samples(&run, self.features, self.contacts, self.options, &|p| cap(&run.place(p)), out)
+/// A part of a path as the sampler meets it.
+#[derive(Clone, Debug)]
+pub enum Leg<'c, S> {
+    /// A place that is always a sample: the first of a path, a corner, an end.
+    Fixed(CurveParam<S>, Bound),
+    /// The stretch up to the next such place.
+    Run(Run<'c, S>),
+}
+
+/// The legs of one path, in path order. One step looks at no more joints than the path has.
+#[derive(Clone, Debug)]
+pub struct Legs<'c, S> {
+    curve: &'c Curve<'c, S>,
+    index: u32,
+    path: Path,
+    /// Segment of the path that the runs count from.
+    first: u32,
+    /// Where the run of a closed path without corners starts and ends.
+    seam: Option<S>,
+    /// Where the next run starts.
+    from: u32,
+    /// What comes next is a sample.
+    fixed: bool,
+}
+
+impl<'c, S: Scalar> Legs<'c, S> {
+    /// The legs of a path, none if there is no such path. `start` is [`SamplingOptions::start`].
+    pub fn new(curve: &'c Curve<'c, S>, index: u32, start: &S) -> Self {
+        let path = curve.paths.get(index as usize).copied().unwrap_or_default();
+        let mut legs = Self { curve, index, path, first: 0, seam: None, from: 0, fixed: true };
+        if path.closed {
+            let count = path.count;
+            let total = S::int(i32::try_from(count).unwrap_or(i32::MAX)) * start;
+            let begin = whole_part(&total, count);
+            if let Some(corner) = (0..count).map(|n| (begin + n) % count).find(|&k| legs.corner_at(k)) {
+                legs.first = corner;
+            } else {
+                let t = (total - &S::int(i32::try_from(begin).unwrap_or(0))).clamp(S::zero(), S::one());
+                legs.first = begin;
+                legs.seam = Some(t);
+            }
+        }
+        legs
     }
 
     /// The joint before segment k of the path is a corner.
@@ -159,15 +160,30 @@ impl<S: Scalar, F: FeatureSize<S>> Sampler<'_, '_, S, F> {
     }
 
     /// The run from the start of segment `from` to the start of segment `to` (or the end of the path).
-    fn run(&self, from: u32, to: u32) -> Run<'_, S> {
+    fn run(&self, from: u32, to: u32) -> Run<'c, S> {
         Run {
             curve: self.curve,
             path: self.path,
             index: self.index,
-            first: 0,
+            first: self.first,
             start: Pos { k: from, t: S::zero() },
             end: Pos { k: to - 1, t: S::one() },
             ends: [self.ending(from, 0), self.ending(to - 1, 1)],
+        }
+    }
+
+    /// The run around a closed path without corners.
+    fn round(&self, t: &S) -> Run<'c, S> {
+        let count = self.path.count;
+        let end = if *t > S::zero() { Pos { k: count, t: t.clone() } } else { Pos { k: count - 1, t: S::one() } };
+        Run {
+            curve: self.curve,
+            path: self.path,
+            index: self.index,
+            first: self.first,
+            start: Pos { k: 0, t: t.clone() },
+            end,
+            ends: [RunEnd::Seam, RunEnd::Seam],
         }
     }
 
@@ -179,18 +195,47 @@ impl<S: Scalar, F: FeatureSize<S>> Sampler<'_, '_, S, F> {
         }
     }
 
-    /// A sample at an end of a segment.
-    fn fixed(&self, k: u32, side: usize, bound: Bound, out: &mut impl Store<Sample<S>>) -> Result<(), SamplingError> {
+    /// An end of a segment of the path.
+    fn place(&self, k: u32, side: usize) -> CurveParam<S> {
         let t = if side == 0 { S::zero() } else { S::one() };
-        self.push(CurveParam { segment: self.path.first + k, t }, bound, out)
+        CurveParam { segment: self.path.first + k, t }
     }
+}
 
-    fn push(&self, at: CurveParam<S>, bound: Bound, out: &mut impl Store<Sample<S>>) -> Result<(), SamplingError> {
-        if let Some(point) = self.curve.point(&at) {
-            let lfs = self.features.lfs(&at, &point);
-            out.push(Sample { path: self.index, at, point, lfs, bound })?;
+impl<'c, S: Scalar> Iterator for Legs<'c, S> {
+    type Item = Leg<'c, S>;
+
+    fn next(&mut self) -> Option<Leg<'c, S>> {
+        let count = self.path.count;
+        if self.fixed {
+            self.fixed = false;
+            if let Some(t) = &self.seam {
+                return (self.from == 0 && count > 0).then(|| {
+                    let run = self.round(t);
+                    Leg::Fixed(run.place(&run.start), Bound::Start)
+                });
+            }
+            return match (self.path.closed, self.from) {
+                _ if count == 0 => None,
+                (_, 0) => Some(Leg::Fixed(self.place(self.first, 0), Bound::Start)),
+                (true, k) => (k < count).then(|| Leg::Fixed(self.place((self.first + k) % count, 0), Bound::Corner)),
+                (false, k) => {
+                    Some(Leg::Fixed(self.place(k - 1, 1), if k == count { Bound::End } else { Bound::Corner }))
+                }
+            };
         }
-        Ok(())
+        if self.from >= count {
+            return None;
+        }
+        self.fixed = true;
+        let from = self.from;
+        if let Some(t) = &self.seam {
+            self.from = count;
+            return Some(Leg::Run(self.round(t)));
+        }
+        let to = (from + 1..count).find(|&k| self.corner_at((self.first + k) % count)).unwrap_or(count);
+        self.from = to;
+        Some(Leg::Run(self.run(from, to)))
     }
 }
 

@@ -94,6 +94,16 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         Self { run, features, contacts, options, factor, certain, stretches, last: RefCell::new(None) }
     }
 
+    /// Goes on from the last look-up of other sizes along the same run: later look-ups are faster, not different.
+    pub fn resume(&self, last: Option<(Point<S>, S)>) {
+        *self.last.borrow_mut() = last;
+    }
+
+    /// The last point that was looked at, and its lfs, for [`Self::resume`].
+    pub fn looked(self) -> Option<(Point<S>, S)> {
+        self.last.into_inner()
+    }
+
     /// ε·(1 − tolerance)·scale.
     pub fn factor(&self) -> Option<&S> {
         self.factor.as_ref()

@@ -14,6 +14,7 @@ use super::step::{self, Caps, Next};
 use super::{Bound, Sample, SamplingError, SamplingOptions};
 use crate::buffer::Store;
 use crate::curve::contact::Contact;
+use crate::geometry::Point;
 use crate::lfs::FeatureSize;
 use crate::scalar::Scalar;
 
@@ -124,31 +125,26 @@ impl<S: Scalar, F: FeatureSize<S>, C: Fn(&Pos<S>) -> Option<S>> Spreader<'_, S, 
     /// The last inner sample is moved back, or dropped, where it is nearer than d_min to the run's end.
     fn keep_distance(&self, out: &mut impl Store<Sample<S>>) {
         let Some(min) = &self.options.min_distance else { return };
-        let end = self.run.point(&self.run.end);
         let count = out.items().len();
         if count <= self.base {
             return;
         }
         let before = if count >= self.base + 2 {
-            out.items().get(count - 2).map(|s| (self.position_of(s), s.point.clone()))
+            out.items().get(count - 2).map(|s| self.position_of(s))
         } else {
-            Some((self.run.start.clone(), self.run.point(&self.run.start)))
+            Some(self.run.start.clone())
         };
-        let (Some(last), Some((before, point))) = (out.items().last().cloned(), before) else { return };
-        if last.point.distance(&end) >= *min {
-            return;
-        }
-        // The middle of what is left, if both halves keep the distance; otherwise the sample goes.
-        let middle = self.run.between(&before, &self.run.end, &S::one().half());
-        let p = self.run.point(&middle);
-        if p.distance(&point) >= *min && p.distance(&end) >= *min {
-            if let Some(s) = out.items_mut().last_mut() {
-                s.at = self.run.place(&middle);
-                s.point = p;
-                s.bound = Bound::Min;
+        let (Some(last), Some(before)) = (out.items().last(), before) else { return };
+        match last_kept(self.run, min, &before, &last.point) {
+            LastKept::AsItIs => {}
+            LastKept::Moved(pos) => {
+                if let Some(s) = out.items_mut().last_mut() {
+                    s.at = self.run.place(&pos);
+                    s.point = self.run.point(&pos);
+                    s.bound = Bound::Min;
+                }
             }
-        } else {
-            out.shorten(count - 1);
+            LastKept::Dropped => out.shorten(count - 1),
         }
     }
 
@@ -167,5 +163,31 @@ impl<S: Scalar, F: FeatureSize<S>, C: Fn(&Pos<S>) -> Option<S>> Spreader<'_, S, 
         for s in out.items_mut().iter_mut().skip(self.base) {
             s.lfs = self.features.lfs(&s.at, &s.point);
         }
+    }
+}
+
+/// What becomes of the last inner sample of a run.
+pub(super) enum LastKept<S> {
+    /// It keeps d_min to the run's end.
+    AsItIs,
+    /// It is moved back to here.
+    Moved(Pos<S>),
+    /// There is no room for it.
+    Dropped,
+}
+
+/// What becomes of the last inner sample, at the point `last`, with the sample at `before` before it.
+pub(super) fn last_kept<S: Scalar>(run: &Run<'_, S>, min: &S, before: &Pos<S>, last: &Point<S>) -> LastKept<S> {
+    let end = run.point(&run.end);
+    if last.distance(&end) >= *min {
+        return LastKept::AsItIs;
+    }
+    // The middle of what is left, if both halves keep the distance; otherwise the sample goes.
+    let middle = run.between(before, &run.end, &S::one().half());
+    let p = run.point(&middle);
+    if p.distance(&run.point(before)) >= *min && p.distance(&end) >= *min {
+        LastKept::Moved(middle)
+    } else {
+        LastKept::Dropped
     }
 }

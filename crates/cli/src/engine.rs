@@ -91,6 +91,11 @@ impl<'d> Engine<'d> {
         Ok(Self { drawing, options: *options, curve, medial })
     }
 
+    /// lfs at a point, without a place on the drawing.
+    pub(crate) fn lfs(&self, p: &Point<f64>) -> f64 {
+        self.medial.lfs(p)
+    }
+
     /// What was changed before anything was computed.
     pub(crate) fn door(&self) -> Door {
         Door::new(self.curve.report())

@@ -8,6 +8,7 @@ mod commands;
 mod engine;
 mod errors;
 mod input;
+mod job;
 mod number_in;
 mod options;
 mod output;

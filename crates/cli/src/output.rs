@@ -19,11 +19,18 @@ pub(crate) enum Format {
     Csv,
     Json,
     Gcode,
+    Fsj,
 }
 
 impl Format {
-    const ALL: [(&'static str, Self); 5] =
-        [("svg", Self::Svg), ("ply", Self::Ply), ("csv", Self::Csv), ("json", Self::Json), ("gcode", Self::Gcode)];
+    const ALL: [(&'static str, Self); 6] = [
+        ("svg", Self::Svg),
+        ("ply", Self::Ply),
+        ("csv", Self::Csv),
+        ("json", Self::Json),
+        ("gcode", Self::Gcode),
+        ("fsj", Self::Fsj),
+    ];
 
     /// By its name, which is also its extension.
     fn named(name: &str) -> Option<Self> {
@@ -117,7 +124,7 @@ mod tests {
         assert_eq!(format(Some("a.SVG"), None), Some(Format::Svg), "by extension");
         assert_eq!(format(Some("a.svg"), Some("csv")), Some(Format::Csv), "the option wins");
         assert_eq!(format(Some("a.ply"), None), None, "not of this command");
-        assert_eq!(format(Some("a.fsj"), None), None, "not yet a format");
+        assert_eq!(format(Some("a.fsj"), None), None, "not of this command either");
         assert_eq!(format(Some("a"), None), None, "no extension");
     }
 }

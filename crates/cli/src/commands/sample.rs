@@ -5,15 +5,15 @@ use lineart::export::{Header, LfsRow, PathRows, SampleRow, csv, gcode, json, ply
 
 use crate::engine::Engine;
 use crate::errors::Failure;
-use crate::input;
 use crate::options::{Layer, SampleArgs};
 use crate::output::{Format, Target};
 use crate::progress::Progress;
 use crate::summary::Summary;
+use crate::{input, job};
 
 /// Samples a drawing.
 pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
-    let formats = [Format::Svg, Format::Ply, Format::Csv, Format::Json, Format::Gcode];
+    let formats = [Format::Svg, Format::Ply, Format::Csv, Format::Json, Format::Gcode, Format::Fsj];
     let target = Target::new(args.output.output.as_deref(), args.output.format.as_deref(), &formats)?;
     args.sampling.check()?;
     let options = args.model.check()?;
@@ -21,7 +21,7 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
     if args.layers.is_some() && target.format != Format::Svg {
         return Err(Failure::usage(format!("--layers is for svg, and the result is {}", target.format)));
     }
-    if args.plotter.is_given() && target.format != Format::Gcode {
+    if args.plotter.is_given() && !matches!(target.format, Format::Gcode | Format::Fsj) {
         return Err(Failure::usage(format!("pen and feed options are for gcode, and the result is {}", target.format)));
     }
 
@@ -32,6 +32,10 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
     target.check_folder()?;
 
     let engine = Engine::new(&drawing, &options)?;
+    if target.format == Format::Fsj {
+        let bytes = job::bytes(&drawing, &engine, &bounds, options.steps, machine.feed)?;
+        return target.write(|out| out.write_all(&bytes));
+    }
     let progress = Progress::new("sampling", quiet);
     let paths = engine.sample(&bounds)?;
     drop(progress);
@@ -44,6 +48,8 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
         Format::Json => json::samples(out, &header, &paths),
         Format::Ply => ply::samples(out, &paths),
         Format::Gcode => gcode::samples(out, &header, &drawing, &machine, &paths),
+        // Written above.
+        Format::Fsj => Ok(()),
         Format::Svg => {
             let shown = |layer| args.layers.as_ref().is_none_or(|layers| layers.contains(&layer));
             let lfs = shown(Layer::Lfs).then(|| paths.iter().map(lfs_rows).collect::<Vec<_>>());

@@ -60,7 +60,7 @@ pub struct Arena<'a> {
     pub arcs: &'a mut [Arc<f32>],
     /// Nodes over the arcs.
     pub nodes: &'a mut [Node<f32>],
-    /// Scratch: as many as arcs, and at least as many as [`MEDIAL_ITEMS`].
+    /// Scratch: as many as arcs.
     pub items: &'a mut [Item<f32>],
     /// Scratch.
     pub order: &'a mut [u32],
@@ -68,6 +68,8 @@ pub struct Arena<'a> {
     pub contacts: &'a mut [Contact<f32>],
     /// [`MEDIAL`].
     pub medial: &'a mut [MedialPoint<f32>],
+    /// Scratch: [`MEDIAL_ITEMS`].
+    pub medial_items: &'a mut [Item<f32>],
     /// Nodes over the medial polylines.
     pub medial_nodes: &'a mut [Node<f32>],
 }
@@ -162,10 +164,8 @@ pub fn run(
     let points: &[MedialPoint<f32>] = points.into_items();
 
     listener.phase(4);
-    // The door's scratch list is free again, but still borrowed with its buffers: the index has scratch of its own.
-    let mut items = [Item::default(); MEDIAL_ITEMS];
     let mut tree = SliceStore::new(&mut *arena.medial_nodes);
-    lfs::build(points, &mut SliceStore::new(&mut items), &mut tree).map_err(full)?;
+    lfs::build(points, &mut SliceStore::new(&mut *arena.medial_items), &mut tree).map_err(full)?;
     let index = LfsIndex::new(points, tree.into_items());
 
     listener.phase(5);

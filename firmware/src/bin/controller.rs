@@ -108,6 +108,32 @@ mod chip {
         }
     }
 
+    /// Top of the stack, and how far down it is watched.
+    const TOP: usize = 0x2040_0000;
+    const WATCHED: usize = 0x4_0000;
+    const PAINT: u32 = 0x5AFE_57AC;
+
+    /// Paints the unused part of the stack.
+    #[inline(never)]
+    fn paint() {
+        let here = 0_u32;
+        let below = (&raw const here) as usize - 256;
+        for at in (TOP - WATCHED..below).step_by(4) {
+            // SAFETY: RAM below this frame and above the statics; nothing lives there.
+            unsafe { (at as *mut u32).write_volatile(PAINT) };
+        }
+    }
+
+    /// How deep the stack has been: bytes from its top to the lowest word that lost its paint.
+    #[inline(never)]
+    fn depth() -> u32 {
+        let lost = (TOP - WATCHED..TOP).step_by(4).find(|at| {
+            // SAFETY: RAM.
+            unsafe { (*at as *const u32).read_volatile() != PAINT }
+        });
+        (TOP - lost.unwrap_or(TOP)) as u32
+    }
+
     macro_rules! lent {
         ($kind:ty, $count:expr) => {{
             static mut SLOTS: MaybeUninit<[$kind; $count]> = MaybeUninit::uninit();
@@ -155,13 +181,16 @@ mod chip {
             order: lent!(u32, ORDER),
             contacts: lent!(feature_sampling::curve::contact::Contact<f32>, CONTACTS),
             medial: lent!(feature_sampling::medial::MedialPoint<f32>, MEDIAL),
+            medial_items: lent!(feature_sampling::geometry::hierarchy::Item<f32>, MEDIAL_ITEMS),
             medial_nodes: lent!(feature_sampling::geometry::hierarchy::Node<f32>, MEDIAL_NODES),
         };
         let mut channel = Channel { from: 0, worst: 0, total: 0 };
+        paint();
         match run(bytes, 8, &mut arena, &mut channel) {
-            Ok(t) => {
-                line(b'e', &[t.samples, t.calls, t.medial as u32, t.arcs as u32, channel.worst, channel.total as u32])
-            }
+            Ok(t) => line(
+                b'e',
+                &[t.samples, t.calls, t.medial as u32, t.arcs as u32, channel.worst, channel.total as u32, depth()],
+            ),
             Err(fault) => line(
                 b'f',
                 &[match fault {

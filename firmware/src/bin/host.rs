@@ -43,6 +43,7 @@ fn main() {
                     order: &mut vec![0; ORDER],
                     contacts: &mut vec![Default::default(); CONTACTS],
                     medial: &mut medial,
+                    medial_items: &mut vec![Default::default(); MEDIAL_ITEMS],
                     medial_nodes: &mut nodes,
                 },
                 &mut Print,

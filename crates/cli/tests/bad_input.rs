@@ -135,8 +135,10 @@ fn options_that_make_no_sense() {
     usage("--layers samples", &["layers", "svg"]);
     usage("--pen-up M5", &["gcode"]);
     usage("--unknown", &["--unknown"]);
-    place.fails("sample drawing.svg -o out.fsj", 2, &["fsj", "not offered", "gcode"]);
-    place.fails("sample drawing.svg --format fsj", 2, &["fsj", "not offered"]);
+    place.fails("medial drawing.svg -o out.fsj", 2, &["fsj", "csv"]);
+    place.fails("sample drawing.svg -o out.fsj --rho 0.5", 2, &["job", "--epsilon", "--rho"]);
+    place.fails("sample drawing.svg -o out.fsj --grading 2", 2, &["job", "--grading"]);
+    place.fails("sample drawing.svg -o out.fsj --steps 2000", 2, &["job", "--steps", "1024"]);
     place.fails("sample drawing.svg -o out.xyz", 2, &["xyz"]);
     place.fails("sample drawing.svg -o out", 2, &["extension", "--format"]);
     place.fails("medial drawing.svg -o out.gcode", 2, &["gcode", "csv"]);

@@ -5,6 +5,7 @@ pub mod delaunay;
 pub mod drawing;
 pub mod export;
 pub mod flatten;
+pub mod node;
 pub mod reconstruct;
 pub mod stretch;
 pub mod svg;

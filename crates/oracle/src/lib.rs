@@ -1,4 +1,4 @@
-//! The judge of roots and closest points, and the properties that tests and fuzzers share.
+//! The judge of roots, closest points and feature sizes, and the properties that tests and fuzzers share.
 //!
 //! A root finder in floating point cannot be tested against another one: where the first errs, the second may too. Every
 //! double is an integer times a power of two, so a polynomial with double coefficients has an exact number of roots in any
@@ -12,18 +12,21 @@
 //! * [`solve`]: the kernel's root finder for any number of coefficients;
 //! * [`queries`]: cubics with a point each, in the three classes of the closest-point benches;
 //! * [`closest`]: the closest point by brute force, and exactly where that disagrees;
+//! * [`feature_size`]: lfs at single points, to nearly all digits of the scalar: never below the true one;
 //! * [`decode`]: bytes of a fuzzer read as polynomials, curves and documents;
 //! * [`property`]: what must hold for any such bytes. One function for each fuzz target; the same functions run on random
 //!   bytes and on the committed corpus in `cargo test`;
 //! * [`survey`]: counts of wrong answers over many cases.
 //!
-//! Nothing of the product judges itself: of the kernel only the functions under test are called. One answer is handed on to
+//! Nothing of the product judges itself: of the kernel only the functions under test are called (but [`feature_size`] takes
+//! tangent disks from it, for certificates that do not use these). One answer is handed on to
 //! users: `fsample roots --certified` prints [`judge::Judge::certified`].
 
 pub mod closest;
 pub mod decode;
 pub mod dyadic;
 pub mod exact;
+pub mod feature_size;
 pub mod judge;
 pub mod nasty;
 pub mod property;

@@ -1,7 +1,8 @@
-//! `Directed` and `Interval` of `f32` and `f64` against MPFR's directed rounding: no containment failure, and how much wider
-//! than need be.
+//! `Directed` and `Interval` of `f32`, `f64` and `Mpfr` against MPFR's directed rounding: no containment failure, and how
+//! much wider than need be.
 //!
-//! A short run by default. The long one, 10⁷ cases for each operation and scalar:
+//! A short run by default. The long one, 10⁷ cases for each operation and scalar (a tenth of that for intervals of `Mpfr`),
+//! a quarter of an hour:
 //! `FSAMPLE_CASES=10000000 cargo test --release -p feature-sampling-mpfr --test interval -- --nocapture`
 //!
 //! MPFR computes with the precision of the scalar and an exponent without bounds, rounded down; rounded down once more to the
@@ -16,8 +17,10 @@
     reason = "random bits are cut to the types under test"
 )]
 
-use feature_sampling::scalar::{Directed, Field, Interval};
+use feature_sampling::scalar::{Directed, Field, Interval, Scalar};
+use feature_sampling_mpfr::Mpfr;
 use feature_sampling_mpfr::truth::input::Gen;
+use num_traits::Zero;
 use rug::Float;
 use rug::float::Round;
 
@@ -222,35 +225,132 @@ fn numbers<S: Machine>(name: &str) {
     }
 }
 
-/// Intervals: results for members are members of the result.
+/// Intervals: results for members are members of the result, and its ends are those of the best enclosure or one step wider.
 fn intervals<S: Machine>(name: &str) {
     for operation in OPERATIONS {
         let mut g = Gen::new(0x001e_7ea1);
-        for _ in 0..cases() / 4 {
+        let (mut compared, mut wider) = (0_u64, 0_u64);
+        for _ in 0..cases() {
             let ((a, c), (b, d)) = (operands::<S>(&mut g), operands::<S>(&mut g));
             let (x, y) = (Interval::between(a, c), Interval::between(b, d));
             let z = apply(operation, x, &y);
-            for p in [a, c, x.middle()] {
-                for q in [b, d, y.middle()] {
-                    // The middle of an interval without finite members is none of them.
-                    if !(x.contains(&p) && y.contains(&q)) {
-                        continue;
-                    }
-                    let Some((down, up)) = exact(operation, p, q) else { continue };
-                    assert!(
-                        *z.lo() <= down && *z.hi() >= up,
-                        "{name} {operation:?} [{}, {}] [{}, {}]: {p} {q} gives [{down}, {up}], not in [{}, {}]",
-                        x.lo(),
-                        x.hi(),
-                        y.lo(),
-                        y.hi(),
-                        z.lo(),
-                        z.hi()
-                    );
+            assert!(z.lo() <= z.hi(), "{name} {operation:?} {x:?} {y:?}: {z:?}");
+            // The best ends are taken on at the corners, unless a divisor may be 0 or a root does not exist.
+            let (mut best, mut whole) = ((S::infinity(), -S::infinity()), true);
+            for (p, q) in [(a, b), (a, d), (c, b), (c, d), (x.middle(), y.middle())] {
+                // The middle of an interval without finite members is none of them.
+                if !(x.contains(&p) && y.contains(&q)) {
+                    continue;
                 }
+                let Some((down, up)) = exact(operation, p, q) else {
+                    whole = false;
+                    continue;
+                };
+                assert!(
+                    *z.lo() <= down && *z.hi() >= up,
+                    "{name} {operation:?} {x:?} {y:?}: {p} {q} gives [{down}, {up}], not in {z:?}"
+                );
+                best = (if down < best.0 { down } else { best.0 }, if up > best.1 { up } else { best.1 });
+            }
+            if whole && !(operation == Operation::Div && y.contains(&S::zero())) {
+                compared += 1;
+                wider += u64::from(*z.lo() < best.0) + u64::from(*z.hi() > best.1);
+                assert!(
+                    *z.lo() >= best.0.down() && *z.hi() <= best.1.up(),
+                    "{name} {operation:?} {x:?} {y:?}: {z:?} is more than a step wider than {best:?}"
+                );
             }
         }
+        println!(
+            "Interval<{name}> {operation:?}: {} cases, 0 failures; of {compared} with a known best enclosure {wider} ends are a step wider",
+            cases()
+        );
+        assert!(compared * 8 >= cases(), "{name} {operation:?}: enough cases count: {compared}");
     }
+}
+
+/// A number of any precision: of moderate size, zeros of both signs, infinities, few bits, far away.
+fn long_number<const BITS: u32>(g: &mut Gen) -> Mpfr<BITS> {
+    let significand = |g: &mut Gen| {
+        let mut v = Float::with_val(BITS, 1);
+        for _ in 0..BITS.div_ceil(64) {
+            v = (v << 64) + g.bits();
+        }
+        v
+    };
+    let value: Float = match g.below(10) {
+        0 => Float::with_val(BITS, [0.0, -0.0, 1.0, -1.0, 0.5, 3.0, -7.0, 10.0][g.below(8) as usize]),
+        1 => Float::with_val(BITS, if g.below(2) == 0 { f64::INFINITY } else { f64::NEG_INFINITY }),
+        2 => Float::with_val(BITS, g.between(-4.0, 4.0)),
+        3 => significand(g) >> (BITS as i32 + g.below(2000) as i32),
+        4 => significand(g) << (g.below(2000) as i32),
+        _ => significand(g) >> (BITS as i32 + g.below(40) as i32),
+    };
+    Mpfr::from_float(&if g.below(2) == 0 { -value } else { value })
+}
+
+/// Intervals of MPFR numbers: their ends are those of the best enclosure, to the bit.
+///
+/// The judge computes each corner in eight times the digits first: sums, differences and products are exact then, unless
+/// their terms are far apart.
+fn long_intervals<const BITS: u32>() {
+    let judge = 8 * BITS;
+    for operation in OPERATIONS {
+        let mut g = Gen::new(0x010a_61e5);
+        let (count, mut compared) = (cases() / 10, 0_u64);
+        for _ in 0..count {
+            let [a, b, c, d] = [(); 4].map(|()| long_number::<BITS>(&mut g));
+            let (x, y) = (Interval::between(a, c), Interval::between(b, d));
+            let z = match operation {
+                Operation::Add => x.clone() + &y,
+                Operation::Sub => x.clone() - &y,
+                Operation::Mul => x.clone() * &y,
+                Operation::Div => x.clone() / &y,
+                Operation::Sqrt => x.clone().sqrt(),
+            };
+            assert!(z.lo() <= z.hi(), "{operation:?} {x:?} {y:?}: {z:?}");
+            let (mut best, mut whole) = ((Mpfr::infinity(), -Mpfr::<BITS>::infinity()), true);
+            for (p, q) in [(x.lo(), y.lo()), (x.lo(), y.hi()), (x.hi(), y.lo()), (x.hi(), y.hi())] {
+                let (p, q) = (p.as_float(), q.as_float());
+                let none = match operation {
+                    Operation::Div => q.is_zero(),
+                    Operation::Sqrt => *p < 0,
+                    _ => false,
+                };
+                if !(p.is_finite() && q.is_finite()) || none {
+                    whole = false;
+                    continue;
+                }
+                let value = |round| match operation {
+                    Operation::Add => Float::with_val_round(judge, p + q, round),
+                    Operation::Sub => Float::with_val_round(judge, p - q, round),
+                    Operation::Mul => Float::with_val_round(judge, p * q, round),
+                    Operation::Div => Float::with_val_round(judge, p / q, round),
+                    Operation::Sqrt => Float::with_val_round(judge, p.sqrt_ref(), round),
+                };
+                let end = |round| Mpfr::from_float(&Float::with_val_round(BITS, value(round).0, round).0);
+                let (down, up) = (end(Round::Down), end(Round::Up));
+                assert!(*z.lo() <= down && *z.hi() >= up, "{operation:?} {x:?} {y:?}: [{down}, {up}] not in {z:?}");
+                best = (if down < best.0 { down } else { best.0 }, if up > best.1 { up } else { best.1 });
+            }
+            if whole && !(operation == Operation::Div && y.contains(&Mpfr::zero())) {
+                compared += 1;
+                assert!(*z.lo() == best.0 && *z.hi() == best.1, "{operation:?} {x:?} {y:?}: {z:?}, not {best:?}");
+            }
+        }
+        println!(
+            "Interval<Mpfr<{BITS}>> {operation:?}: {count} cases, 0 failures; {compared} compared, none wider than the best"
+        );
+        assert!(compared * 8 >= count, "{operation:?}: enough cases count: {compared}");
+    }
+}
+
+#[test]
+fn intervals_mpfr() {
+    long_intervals::<64>();
+    long_intervals::<128>();
+    // No multiple of the words that MPFR computes with.
+    long_intervals::<113>();
 }
 
 #[test]

@@ -3,12 +3,14 @@
 //! The precision is part of a type, so a program that learns it late needs a `match` somewhere: here, once. A job is a value
 //! that can [run](AtPrecision) in any scalar; it is compiled once for each rung.
 
+use std::fmt::Display;
+
 use feature_sampling::scalar::Scalar;
 
 use crate::Mpfr;
 
 /// The rungs, in bits, ascending.
-pub const RUNGS: [u32; 7] = [64, 96, 128, 192, 256, 512, 1024];
+pub const RUNGS: [u32; 5] = [64, 128, 256, 512, 1024];
 
 /// Something that can be done in any scalar.
 pub trait AtPrecision {
@@ -16,7 +18,7 @@ pub trait AtPrecision {
     type Out;
 
     /// Does it.
-    fn run<S: Scalar>(self) -> Self::Out;
+    fn run<S: Scalar + Display>(self) -> Self::Out;
 }
 
 /// The lowest rung with at least so many bits; `None` above the highest.
@@ -28,9 +30,7 @@ pub fn rung(bits: u32) -> Option<u32> {
 pub fn at<J: AtPrecision>(bits: u32, job: J) -> Option<J::Out> {
     Some(match rung(bits)? {
         64 => job.run::<Mpfr<64>>(),
-        96 => job.run::<Mpfr<96>>(),
         128 => job.run::<Mpfr<128>>(),
-        192 => job.run::<Mpfr<192>>(),
         256 => job.run::<Mpfr<256>>(),
         512 => job.run::<Mpfr<512>>(),
         _ => job.run::<Mpfr<1024>>(),
@@ -47,7 +47,7 @@ mod tests {
     impl AtPrecision for Residual {
         type Out = (f64, u32);
 
-        fn run<S: Scalar>(self) -> (f64, u32) {
+        fn run<S: Scalar + Display>(self) -> (f64, u32) {
             let residual = (S::int(2).sqrt().square() - S::int(2)).abs();
             (residual.to_f64().log2(), S::BITS)
         }
@@ -60,7 +60,7 @@ mod tests {
             assert_eq!(in_use, bits, "the rung itself");
             assert!(residual <= 3.0 - f64::from(bits), "{bits}: 2^{residual}");
         }
-        assert_eq!((rung(1), rung(65), rung(1025)), (Some(64), Some(96), None), "rounded up");
+        assert_eq!((rung(1), rung(65), rung(1025)), (Some(64), Some(128), None), "rounded up");
         assert!(at(2000, Residual).is_none(), "above the ladder");
     }
 }

@@ -17,6 +17,9 @@
 //! gmp-mpfr-sys at 1.5: with the libraries of Debian 12 these build in seconds, while newer ones ask for GMP 6.3 or build
 //! everything from source.
 //!
+//! **Running.** `cargo run --release -p feature-sampling-mpfr -- lfs DRAWING` and `-- ladder DRAWING` compute lfs in any
+//! precision of the [`ladder`], `-- accuracy` makes `docs/accuracy.md`; without arguments it says how.
+//!
 //! Numbers of this kind are on the heap: an operation takes about a hundred times as long as in `f64`.
 
 pub mod directed;

@@ -1,82 +1,283 @@
-//! Prints `docs/accuracy.md`.
+//! The kernel in arbitrary precision, from the command line. `fsample-mpfr` without arguments says what it does.
 //!
-//! `FSAMPLE_DATA=FOLDER cargo run --release -p feature-sampling-mpfr --bin accuracy > docs/accuracy.md`. Every number in it
-//! is measured or stands in the table of allowed errors; this file has the words.
+//! Exit codes as those of `fsample`: 0 done, 2 usage, 3 bad input, 4 output could not be written.
 
-use std::path::PathBuf;
+mod page;
 
-use feature_sampling_mpfr::truth::{document, shapes};
+use std::error::Error;
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
 
-const HEAD: &str = "\
-# Accuracy
-How large the errors are, function by function and for lfs as a whole. **This file is generated**, with every number in it:
-```
-FSAMPLE_DATA=FOLDER cargo run --release -p feature-sampling-mpfr --bin accuracy > docs/accuracy.md
-```
-What is proved instead of measured stands in [mathematics.md](mathematics.md). The paper's Table 1, with errors against the
-number of steps, is made by `fsample reproduce table1`.
+use feature_sampling::curve::{CurveParam, nearest};
+use feature_sampling::geometry::Point;
+use feature_sampling::scalar::Scalar;
+use feature_sampling_mpfr::ladder::{self, AtPrecision, RUNGS};
+use fsample_oracle::feature_size::{Oracle, Stroke};
+use lineart::text_in;
 
+const HELP: &str = "\
+The kernel of fsample in arbitrary precision (MPFR).
+
+  fsample-mpfr lfs DRAWING [--at POINTS | --along N] [--bits B]
+      lfs to nearly all digits of B bits (default 128): at the points of a file, one `x y` or `x,y` a line, or at N places
+      a cubic (default 4). A table path,segment,t,x,y,lfs,mx,my,polylines goes to standard output: (mx, my) is the medial
+      point found, and polylines the distance to the coarse polylines that said where to look. lfs is the distance to a
+      point of the medial axis: never below the true value but for rounding.
+  fsample-mpfr ladder DRAWING [--along N]
+      the same at every precision from 64 to 1024 bits: how far each is from the highest.
+  fsample-mpfr accuracy
+      docs/accuracy.md; FSAMPLE_DATA names a folder with drawings/ and truth/.
+
+Options: --tolerance T of the coarse polylines (default 1e-4), --corner-angle DEG below which joints are smooth (default 1).
 ";
 
-const FUNCTIONS: &str = "\
-## Function by function
-Each public function of the kernel that rounds, in `f32` and in `f64`, against itself in 256 bits
-([`crates/mpfr`](../crates/mpfr/src/lib.rs)) on the same input: random, with a liking for zeros, ends of intervals, lines and
-retracted handles. One ulp is 2^(1−BITS) of what the second column names: of the result where it is well conditioned,
-otherwise of what rounding is relative to. `cargo test -p feature-sampling-mpfr` fails where an error exceeds what is
-*allowed*, where a public function has no entry in [the table](../crates/mpfr/src/truth/table.rs), and where names or allowed
-errors here are not those of the table. *Measured* is the largest error when this file was made.
+/// Why nothing came of it, and the exit code.
+struct Failure(u8, String);
 
-";
-
-const HULL: &str = "
-The bound of `hull_distance_sq` stays a bound where it is so far off: next to an edge of the hull the direction that it is
-taken in is mostly rounding, and turning it makes the bound smaller.
-
-### Functions that do not round, or only through others
-";
-
-const SHAPES: &str = "
-## lfs on shapes with a known value
-The largest relative error over the places where the value is known, by scalar and by `tolerance`. The value that counts is
-that *of the cubics that are drawn*: a circle of four cubics has curvature that varies, and its smallest lfs is not R.
-
-";
-
-const DRAWINGS: &str = "
-Most of these do not depend on the tolerance: inflections, vertices, joints and contacts are feet at any resolution, and
-straight medial polylines are exact. Only the concentric circles have a curved medial axis that decides lfs between feet. What
-is left at T-junction and crossing are places close to the point where lfs is 0, where rounding of coordinates counts relative
-to a small value.
-
-## lfs on drawings
-Where `FSAMPLE_DATA` names a folder with `drawings/NAME.svg` and `truth/NAME.csv`: parameters of each drawing with their lfs
-from an independent dense computation, given with 12 digits. Joints that turn by less than 0.002 rad are smooth in both.
-
-";
-
-const TAIL: &str = "
-*Radii* are those of the tangent disks on both sides, where they are below the diagonal; their errors are what the digits of
-the truth leave. The two signs of lfs are told apart because they differ in kind. Where lfs comes out too *large*, the
-ε-condition is at risk: the sampler takes (1 − tolerance)·lfs for that reason. Where it comes out too *small*, a few samples
-more than needed result. There an edge of a polyline runs nearer to the curve than M does, as where it cuts the angle at a
-branch point: the tolerance is a target of refinement, not a bound
-([when a cell is fine enough](mathematics.md#8-when-a-cell-is-fine-enough)).
-
-## Determinism
-The same input and options give the same bytes, whatever the number of threads, and on every target with IEEE arithmetic: the
-kernel uses + − × ÷ √ and comparisons only, all correctly rounded, and never asks for a fused multiply-add.
-";
-
-fn main() -> shapes::Result<()> {
-    let folder = std::env::var_os("FSAMPLE_DATA").map(PathBuf::from);
-    let drawings = folder.map(|folder| shapes::against_truth(&folder)).transpose()?.flatten();
-    if drawings.is_none() {
-        eprintln!("accuracy: no drawings: FSAMPLE_DATA names no folder with drawings and truth");
+impl Failure {
+    fn usage(message: impl Display) -> Self {
+        Self(2, message.to_string())
     }
-    let drawings = drawings.unwrap_or_else(|| "(Not measured: the drawings were not there.)\n".to_owned());
-    let (functions, others) = (document::functions(true), document::others());
-    let shapes = shapes::analytic()?;
-    print!("{HEAD}{FUNCTIONS}{functions}{HULL}{others}{SHAPES}{shapes}{DRAWINGS}{drawings}{TAIL}");
-    Ok(())
+
+    fn input(file: &Path, cause: impl Display) -> Self {
+        // Some causes name their file already.
+        let (name, cause) = (file.display().to_string(), cause.to_string());
+        Self(3, if cause.starts_with(&name) { cause } else { format!("{name}: {cause}") })
+    }
+}
+
+/// What was asked for.
+struct Options {
+    drawing: PathBuf,
+    at: Option<PathBuf>,
+    along: u32,
+    bits: u32,
+    tolerance: f64,
+    corner_angle: f64,
+}
+
+impl Options {
+    /// The defaults.
+    fn of(drawing: PathBuf) -> Self {
+        Self { drawing, at: None, along: 4, bits: 128, tolerance: 1e-4, corner_angle: 1.0 }
+    }
+
+    fn parse(arguments: &[String], ladder: bool) -> Result<Self, Failure> {
+        let (mut drawing, mut at, mut along) = (None, None, None);
+        let Self { mut bits, mut tolerance, mut corner_angle, along: usual, .. } = Self::of(PathBuf::new());
+        let mut rest = arguments.iter();
+        while let Some(argument) = rest.next() {
+            let mut value = || rest.next().ok_or_else(|| Failure::usage(format!("{argument} needs a value")));
+            let number = |text: &String, low: f64, high: f64| match text.parse::<f64>() {
+                Ok(v) if v >= low && v <= high => Ok(v),
+                _ => Err(Failure::usage(format!("{argument} {text}: a number from {low} to {high} is needed"))),
+            };
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in the range just checked")]
+            let whole = |text: &String, high: f64| number(text, 1.0, high).map(|v| v as u32);
+            match argument.as_str() {
+                "--at" if !ladder => at = Some(PathBuf::from(value()?)),
+                "--along" => along = Some(whole(value()?, 1e6)?),
+                "--bits" if !ladder => bits = whole(value()?, 1024.0)?,
+                "--tolerance" => tolerance = number(value()?, 1e-9, 0.1)?,
+                "--corner-angle" => corner_angle = number(value()?, 0.0, 180.0)?,
+                option if option.starts_with("--") => return Err(Failure::usage(format!("unknown option {option}"))),
+                file if drawing.is_none() => drawing = Some(PathBuf::from(file)),
+                more => return Err(Failure::usage(format!("one drawing at a time, not {more} as well"))),
+            }
+        }
+        if at.is_some() && along.is_some() {
+            return Err(Failure::usage("--at and --along exclude each other"));
+        }
+        let drawing = drawing.ok_or_else(|| Failure::usage("which drawing?"))?;
+        Ok(Self { drawing, at, along: along.unwrap_or(usual), bits, tolerance, corner_angle })
+    }
+}
+
+/// A place that is asked about.
+enum Place {
+    /// A point of the plane.
+    Point(Point<f64>),
+    /// A parameter of a segment of the curve, as a fraction.
+    Along(u32, i32, i32),
+}
+
+/// A row of the table, in one precision.
+struct Row<S> {
+    place: String,
+    point: Point<S>,
+    lfs: S,
+    medial: Option<Point<S>>,
+    polylines: S,
+}
+
+/// lfs at places of a drawing.
+struct Job<'j> {
+    strokes: &'j [Stroke],
+    options: &'j Options,
+    points: Option<&'j [Point<f64>]>,
+}
+
+impl Job<'_> {
+    fn rows<S: Scalar>(&self) -> Result<Vec<Row<S>>, Failure> {
+        let Options { drawing, along, tolerance, corner_angle, .. } = self.options;
+        let oracle = Oracle::<S>::new(self.strokes, *corner_angle, *tolerance)
+            .map_err(|error| Failure::input(drawing, error))?;
+        let curve = oracle.curve().curve();
+        let places: Vec<Place> = match self.points {
+            Some(points) => points.iter().cloned().map(Place::Point).collect(),
+            None => {
+                let count = i32::try_from(*along).unwrap_or(i32::MAX);
+                let of = |segment| (0..count).map(move |i| Place::Along(segment, 2 * i + 1, 2 * count));
+                (0..).zip(curve.segments).flat_map(|(segment, _)| of(segment)).collect()
+            }
+        };
+        let row = |place: &Place| {
+            let (at, point) = match place {
+                Place::Point(p) => {
+                    let p = Point::from_f64(p.x, p.y);
+                    let near = nearest::nearest(&curve, &p, S::infinity())?;
+                    (near.at, p)
+                }
+                Place::Along(segment, num, den) => {
+                    let at = CurveParam { segment: *segment, t: S::ratio(*num, *den) };
+                    let point = curve.point(&at)?;
+                    (at, point)
+                }
+            };
+            let (path, segment, t) = oracle.curve().source(&at);
+            let found = oracle.lfs(&point);
+            let place = format!("{path},{segment},{}", t.to_f64());
+            Some(Row { place, point, lfs: found.lfs, medial: found.medial, polylines: found.polylines })
+        };
+        Ok(places.iter().filter_map(row).collect())
+    }
+}
+
+/// The table of `lfs`.
+struct Printed<'j>(Job<'j>);
+
+impl AtPrecision for Printed<'_> {
+    type Out = Result<String, Failure>;
+
+    fn run<S: Scalar + Display>(self) -> Self::Out {
+        let mut out = String::from("path,segment,t,x,y,lfs,mx,my,polylines\n");
+        for Row { place, point, lfs, medial, polylines } in self.0.rows::<S>()? {
+            let medial = medial.map_or_else(|| ",".to_owned(), |m| format!("{},{}", m.x, m.y));
+            out.push_str(&format!("{place},{},{},{lfs},{medial},{polylines}\n", point.x, point.y));
+        }
+        Ok(out)
+    }
+}
+
+/// lfs at a rung, as numbers of the highest precision.
+struct Rung<'j>(Job<'j>);
+
+type Highest = feature_sampling_mpfr::Mpfr<1024>;
+
+impl AtPrecision for Rung<'_> {
+    type Out = Result<Vec<Highest>, Failure>;
+
+    fn run<S: Scalar + Display>(self) -> Self::Out {
+        let lift = |v: &S| {
+            // Decimal and back: Display writes as many digits as the precision has.
+            let parsed = rug::Float::parse(v.to_string()).map(|p| rug::Float::with_val(1024, p));
+            parsed.map_or_else(|_| Highest::infinity(), |v| Highest::from_float(&v))
+        };
+        Ok(self.0.rows::<S>()?.iter().map(|row| lift(&row.lfs)).collect())
+    }
+}
+
+fn lfs(options: &Options) -> Result<String, Failure> {
+    let points = options.at.as_deref().map(read_points).transpose()?;
+    let strokes = read(&options.drawing)?;
+    let job = Job { strokes: &strokes, options, points: points.as_deref() };
+    let done = ladder::at(options.bits, Printed(job));
+    done.unwrap_or_else(|| Err(Failure::usage(format!("--bits {}: at most 1024", options.bits))))
+}
+
+fn ladder(options: &Options) -> Result<String, Failure> {
+    let strokes = read(&options.drawing)?;
+    let mut rungs = Vec::new();
+    for bits in RUNGS {
+        let start = Instant::now();
+        let job = Job { strokes: &strokes, options, points: None };
+        let values = ladder::at(bits, Rung(job)).unwrap_or_else(|| Err(Failure::usage("no such rung")))?;
+        eprintln!("{bits} bits: {} places, {:.1} s", values.len(), start.elapsed().as_secs_f64());
+        rungs.push((bits, values));
+    }
+    let Some((_, truth)) = rungs.last().cloned() else { return Ok(String::new()) };
+    let mut out = String::from("bits,places,largest_relative_difference\n");
+    for (bits, values) in &rungs {
+        // As floats of MPFR: 2^−1024 is nearly below what a double holds.
+        let differences = values.iter().zip(&truth).filter(|(_, b)| b.is_finite());
+        let exact = |a: &Highest, b: &Highest| {
+            let difference = rug::Float::with_val(64, a.as_float() - b.as_float()).abs();
+            difference / b.as_float()
+        };
+        let largest = differences.map(|(a, b)| exact(a, b)).fold(rug::Float::new(64), |m, d| m.max(&d));
+        out.push_str(&format!("{bits},{},{largest:.2e}\n", values.len()));
+    }
+    Ok(out)
+}
+
+fn read(file: &Path) -> Result<Vec<Stroke>, Failure> {
+    let drawing = lineart::drawing::load(file).map_err(|error| Failure::input(file, error))?;
+    if drawing.paths.is_empty() {
+        return Err(Failure::input(file, "there is no curve in it"));
+    }
+    Ok(drawing.paths.into_iter().map(|path| (path.closed, path.cubics)).collect())
+}
+
+fn read_points(file: &Path) -> Result<Vec<Point<f64>>, Failure> {
+    let text = text_in::read_file(file).map_err(|error| Failure::input(file, error))?;
+    let mut points = Vec::new();
+    for (line, content) in (1..).zip(text.lines()) {
+        let content = content.split('#').next().unwrap_or_default();
+        let fields = content.split(|c: char| c == ',' || c.is_whitespace()).filter(|field| !field.is_empty());
+        let numbers: Vec<Option<f64>> =
+            fields.map(|field| field.parse().ok().filter(|v: &f64| v.is_finite())).collect();
+        match numbers.as_slice() {
+            [] => {}
+            [Some(x), Some(y)] => points.push(Point::new(*x, *y)),
+            // A header.
+            [None, None] if points.is_empty() => {}
+            _ => return Err(Failure::input(file, format!("line {line}: write “x y” or “x,y”"))),
+        }
+    }
+    Ok(points)
+}
+
+fn run(arguments: &[String]) -> Result<String, Failure> {
+    match arguments.split_first() {
+        None => Ok(HELP.to_owned()),
+        Some((first, _)) if matches!(first.as_str(), "help" | "--help" | "-h") => Ok(HELP.to_owned()),
+        Some((first, rest)) if first == "lfs" => lfs(&Options::parse(rest, false)?),
+        Some((first, rest)) if first == "ladder" => ladder(&Options::parse(rest, true)?),
+        Some((first, [])) if first == "accuracy" => {
+            page::accuracy().map_err(|error: Box<dyn Error>| Failure(3, error.to_string()))
+        }
+        Some((first, _)) => Err(Failure::usage(format!("{first}: lfs, ladder or accuracy"))),
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(text) => match io::stdout().lock().write_all(text.as_bytes()) {
+            Ok(()) => ExitCode::SUCCESS,
+            // The reader of a pipe left early.
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+            Err(error) => {
+                eprintln!("fsample-mpfr: standard output: {error}");
+                ExitCode::from(4)
+            }
+        },
+        Err(Failure(code, message)) => {
+            eprintln!("fsample-mpfr: {message}");
+            ExitCode::from(code)
+        }
+    }
 }

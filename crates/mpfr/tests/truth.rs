@@ -49,5 +49,5 @@ fn the_document_is_generated() {
     let text = fs::read_to_string(repository().join("docs/accuracy.md")).expect("docs/accuracy.md");
     let expected = document::without_measured(&(document::functions(false) + &document::others()));
     let found: Vec<String> = document::without_measured(&text);
-    assert_eq!(found, expected, "run `cargo run --release -p feature-sampling-mpfr --bin accuracy`");
+    assert_eq!(found, expected, "run `cargo run --release -p feature-sampling-mpfr -- accuracy`");
 }

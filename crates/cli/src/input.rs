@@ -12,6 +12,11 @@ use crate::errors::{Failure, warn};
 /// Reads a drawing: SVG, or control points as CSV where the name ends so. Standard input is told apart by its first
 /// character. What the reader left out is said on standard error.
 pub(crate) fn drawing(file: &str, quiet: bool) -> Result<Drawing, Failure> {
+    drawing_and_text(file, quiet).map(|(drawing, _)| drawing)
+}
+
+/// The same, with the text that it was read from.
+pub(crate) fn drawing_and_text(file: &str, quiet: bool) -> Result<(Drawing, String), Failure> {
     let text = text(file)?;
     let is_csv = if file == "-" {
         // An XML document starts with <, a table with a digit, the header or a comment.
@@ -36,7 +41,7 @@ pub(crate) fn drawing(file: &str, quiet: bool) -> Result<Drawing, Failure> {
         };
         return Err(Failure::input(file, format!("there is no curve in it{left_out}")));
     }
-    Ok(drawing)
+    Ok((drawing, text))
 }
 
 /// Reads points, one `x y` or `x,y` per line. Empty lines, `#` comments and one header line are skipped.

@@ -49,6 +49,7 @@ pub(crate) enum Command {
     Medial(MedialArgs),
     Lfs(LfsArgs),
     Inspect(InspectArgs),
+    Colour(ColourArgs),
     Compare(CompareArgs),
     Reconstruct(ReconstructArgs),
     Reproduce(ReproduceArgs),
@@ -199,6 +200,78 @@ pub(crate) struct CompareArgs {
     pub(crate) max_samples: u32,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
+}
+
+/// Colour a drawing whose strokes leave gaps.
+///
+/// Hints say which colour belongs where: dots given on the command line, in a file, or dots and scribbles in a layer of the
+/// drawing (any group with the id or Inkscape label “hints”). Colour does not cross strokes; where two colours meet in a
+/// gap they meet at its narrowest place. What is outside the drawing takes part as a hint without colour.
+///
+/// The result is the drawing, unchanged, with a layer “fills” of Bézier outlines under the strokes, and without the layer
+/// of hints. Without -o it goes to standard output.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  fsample colour drawing.svg --hint 120,80,gold --hint 40,200,#c33 -o coloured.svg
+  fsample colour drawing.svg --hints hints.csv -o coloured.svg       hints.csv: one \"x,y,colour\" per line
+  fsample colour drawing.svg -o coloured.svg                         hints in the layer “hints”
+  fsample colour drawing.svg --auto -o coloured.svg                  no hints: a colour for each room
+  fsample colour drawing.svg --hint 120,80,gold --report regions.json --debug -o look.svg")]
+pub(crate) struct ColourArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArg,
+    /// The coloured drawing, SVG; - is standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+    /// A hint: a place and a colour (#rgb, #rrggbb, a CSS name, or none); may be repeated
+    #[arg(long, value_name = "X,Y,COLOUR", allow_hyphen_values = true)]
+    pub(crate) hint: Vec<String>,
+    /// Hints, one "x,y,colour" per line; - is standard input
+    #[arg(long, value_name = "FILE")]
+    pub(crate) hints: Option<String>,
+    /// Id or Inkscape label of the groups of the drawing that hold hints [default: hints]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) hint_layer: Option<String>,
+    /// Find rooms without hints and colour them from a palette; hints in the drawing are not used
+    #[arg(long, conflicts_with_all = ["hint", "hints", "hint_layer"])]
+    pub(crate) auto: bool,
+    /// Colour does not enter rooms without a hint through openings narrower than L
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    pub(crate) max_gap: Option<Length>,
+    /// Let each colour reach L/2 beyond its outline, under the strokes, so that no seam shows
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    pub(crate) bleed: Option<Length>,
+    /// What becomes of regions that no hint reaches
+    #[arg(long, value_enum, default_value_t = UnlabelledName::None)]
+    pub(crate) unlabelled: UnlabelledName,
+    /// What is outside the drawing is no hint: colour may leave through gaps
+    #[arg(long)]
+    pub(crate) no_outside: bool,
+    /// With --auto: a room's entrance is narrower than this share of its widest passage
+    #[arg(long, value_name = "G", default_value_t = 0.7, allow_negative_numbers = true)]
+    pub(crate) gamma: f64,
+    /// Write what was found: regions with their hints, areas and gaps, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+    /// Add a layer with the triangulation and the gaps
+    #[arg(long)]
+    pub(crate) debug: bool,
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+}
+
+/// What becomes of regions that no hint reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum UnlabelledName {
+    /// They stay empty
+    None,
+    /// They take the colour with which they share most of their boundary
+    Neighbour,
+    /// They are coloured from a palette
+    Auto,
 }
 
 /// Forms of `compare`'s answer.

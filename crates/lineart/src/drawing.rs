@@ -67,6 +67,8 @@ pub struct DrawingPath {
     pub closed: bool,
     /// The cubics, at least one.
     pub cubics: Vec<Cubic<f64>>,
+    /// The fill paint as written; `None` where there is no fill. Without a word in the document it is black.
+    pub fill: Option<String>,
     /// The stroke paint as written; `None` where there is no stroke.
     pub stroke: Option<String>,
     /// The stroke width in root user units (scaled by the square root of the transform's determinant); `None` where

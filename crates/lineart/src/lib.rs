@@ -1,5 +1,6 @@
 //! Applications on top of the kernel.
 
+pub mod colour;
 pub mod csv_in;
 pub mod delaunay;
 pub mod drawing;

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod colour;
 mod compare;
 mod completions;
 mod inspect;
@@ -22,6 +23,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Medial(args) => medial::run(&args),
         Command::Lfs(args) => lfs::run(&args),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Colour(args) => colour::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Reconstruct(args) => reconstruct::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),

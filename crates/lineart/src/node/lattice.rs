@@ -28,7 +28,7 @@ use super::pairs::Boxes;
 use super::{Edge, NodeError, Noded, Options, Owner, Report, Vertex};
 
 /// Lattice units in a pitch.
-const UNITS: f64 = 2.0;
+pub(super) const UNITS: f64 = 2.0;
 /// An end nearer to a segment than this is on it, in units; less than half a diagonal of a lattice square.
 const NEAR: f64 = 0.7;
 /// Farther than this from its chord no segment is led through a vertex that is merely near, in units: half a diagonal of
@@ -73,7 +73,7 @@ pub(super) fn is_too_fine(extent: f64, options: &Options) -> bool {
 
 /// Rounds the strands.
 pub(super) fn round(strands: &[Strand<'_>], origin: &Point<f64>, options: &Options) -> Result<Noded, NodeError> {
-    let unit = options.pitch / UNITS;
+    let unit = options.unit();
     let mut lattice = Lattice {
         strands,
         origin: *origin,

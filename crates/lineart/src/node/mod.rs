@@ -92,6 +92,11 @@ impl Options {
         Self { pitch, rounds: 30, limit: 10_000_000 }
     }
 
+    /// The unit of the lattice, in user units.
+    pub fn unit(&self) -> f64 {
+        self.pitch / lattice::UNITS
+    }
+
     /// The usual pitch of a drawing: a millionth of its diagonal, or a hundredth of the smallest distance of samples if
     /// that is more.
     pub fn for_drawing(diagonal: f64, min_distance: Option<f64>) -> Self {

@@ -39,6 +39,12 @@ impl<'a> Track<'a> {
         self.cubics.get(at.segment).map_or_else(Point::default, |cubic| cubic.eval(&at.t))
     }
 
+    /// The point at a parameter that may have gone round a closed path once more, in either direction.
+    pub fn eval_around(&self, u: f64) -> Point<f64> {
+        let n = self.length();
+        self.eval(if u < 0.0 { u + n } else { u })
+    }
+
     /// The derivative by u.
     pub fn derivative(&self, u: f64) -> Vector<f64> {
         let at = self.locate(u);

@@ -14,9 +14,10 @@ use roxmltree::Node;
 /// The properties that the reader asks for; a rule that sets none of them is of no interest. The first
 /// [`ATTRIBUTES`] are presentation attributes too; the rest is geometry, which CSS may set but the reader takes from
 /// attributes only.
-pub(super) const PROPERTIES: [&str; 19] = [
+pub(super) const PROPERTIES: [&str; 20] = [
     "display",
     "visibility",
+    "fill",
     "stroke",
     "stroke-width",
     "color",
@@ -37,7 +38,7 @@ pub(super) const PROPERTIES: [&str; 19] = [
 ];
 
 /// How many of [`PROPERTIES`] are presentation attributes.
-pub(super) const ATTRIBUTES: usize = 11;
+pub(super) const ATTRIBUTES: usize = 12;
 
 /// `name: value`, with or without `!important`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 //!
 //! The cascade in short: presentation attributes are weakest, then rules of style sheets, then the `style`
 //! attribute; `!important` beats all that is not. Of the properties read here `display` acts on the whole subtree by
-//! leaving it out; `visibility`, `stroke`, `stroke-width` and `color` are inherited, so that a child may be visible
+//! leaving it out; `visibility`, `fill`, `stroke`, `stroke-width` and `color` are inherited, so that a child may be visible
 //! inside a hidden group.
 
 use std::rc::Rc;
@@ -95,6 +95,8 @@ impl Declared {
 pub(super) struct Inherited {
     pub(super) visible: bool,
     /// The paint; `none` is None.
+    pub(super) fill: Option<String>,
+    /// Likewise.
     pub(super) stroke: Option<String>,
     /// In the element's own user units.
     pub(super) stroke_width: f64,
@@ -103,7 +105,7 @@ pub(super) struct Inherited {
 
 impl Default for Inherited {
     fn default() -> Self {
-        Self { visible: true, stroke: None, stroke_width: 1.0, color: None }
+        Self { visible: true, fill: Some("black".to_owned()), stroke: None, stroke_width: 1.0, color: None }
     }
 }
 
@@ -111,7 +113,7 @@ impl Inherited {
     /// These properties with an element's own on top. `width` resolves a stroke width to user units; a width that
     /// cannot be resolved, or is negative, counts as not given, as CSS has it.
     pub(super) fn under(self: &Rc<Self>, declared: &Declared, width: impl Fn(&str) -> Option<f64>) -> Rc<Self> {
-        let names = ["visibility", "stroke", "stroke-width", "color"];
+        let names = ["visibility", "fill", "stroke", "stroke-width", "color"];
         if names.iter().all(|name| declared.get(name).is_none()) {
             return Rc::clone(self);
         }
@@ -122,12 +124,17 @@ impl Inherited {
         if let Some(color) = declared.get("color") {
             own.color = Some(color.to_owned());
         }
-        if let Some(stroke) = declared.get("stroke") {
-            own.stroke = match stroke {
-                "none" => None,
-                "currentColor" | "currentcolor" => Some(own.color.clone().unwrap_or_else(|| "black".to_owned())),
-                paint => Some(paint.to_owned()),
-            };
+        let paint = |paint: &str| match paint {
+            "none" => None,
+            "currentColor" | "currentcolor" => Some(own.color.clone().unwrap_or_else(|| "black".to_owned())),
+            paint => Some(paint.to_owned()),
+        };
+        let (fill, stroke) = (declared.get("fill").map(paint), declared.get("stroke").map(paint));
+        if let Some(fill) = fill {
+            own.fill = fill;
+        }
+        if let Some(stroke) = stroke {
+            own.stroke = stroke;
         }
         if let Some(value) = declared.get("stroke-width").and_then(width) {
             own.stroke_width = value;

@@ -415,6 +415,7 @@ impl<'a> Reader<'a, '_> {
                 subpath: index,
                 closed: subpath.closed,
                 cubics: subpath.cubics,
+                fill: context.style.fill.clone(),
                 stroke: stroke.clone(),
                 stroke_width: stroke.is_some().then_some(width).filter(|w| w.is_finite()),
             });

@@ -6,6 +6,7 @@ pub mod delaunay;
 pub mod drawing;
 pub mod export;
 pub mod flatten;
+pub mod mesh;
 pub mod node;
 pub mod reconstruct;
 pub mod stretch;

@@ -9,6 +9,7 @@ mod engine;
 mod errors;
 mod input;
 mod job;
+mod meshing;
 mod number_in;
 mod options;
 mod output;

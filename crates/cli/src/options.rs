@@ -14,11 +14,13 @@ use fsample_experiments::shard::Shard;
 use fsample_experiments::study::Grid;
 use lineart::drawing::Drawing;
 use lineart::export::OptionValue;
+use lineart::mesh;
 use lineart::reconstruct::Algorithm;
 use lineart::units::Length;
 
 use crate::engine::{Bounds, Density, ModelOptions};
 use crate::errors::Failure;
+use crate::number_in::number;
 
 /// Local feature size, medial axis and ε-samples of vector line art.
 ///
@@ -52,6 +54,8 @@ pub(crate) enum Command {
     Colour(ColourArgs),
     Compare(CompareArgs),
     Reconstruct(ReconstructArgs),
+    Mesh(MeshArgs),
+    Simulate(SimulateArgs),
     Reproduce(ReproduceArgs),
     Roots(RootsArgs),
     Nearest(NearestArgs),
@@ -328,6 +332,139 @@ pub(crate) struct ReconstructArgs {
 fn algorithm_names() -> clap::builder::PossibleValuesParser {
     let names = Algorithm::ALL.iter().map(|algorithm| algorithm.name()).chain(["all"]);
     clap::builder::PossibleValuesParser::new(names.collect::<Vec<_>>())
+}
+
+/// Fill the rectangle around a drawing with triangles, along its lines.
+///
+/// The drawing is sampled, strokes that cross, touch or repeat each other are cut where they meet, and a rectangle around it
+/// is triangulated: every line between samples is made of edges, no angle is below --min-angle (unless two lines meet at a
+/// smaller one), no edge is longer than --max-edge. With --graded, triangles are small where the drawing has detail and grow
+/// with the distance from it.
+///
+/// Without -o, a table triangle,x0,y0,x1,y1,x2,y2 goes to standard output.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  fsample mesh drawing.svg -o mesh.svg                    a picture
+  fsample mesh drawing.svg --max-edge 3% -o mesh.msh      for gmsh and its readers
+  fsample mesh drawing.svg --graded --max-edge 10% --epsilon 1 --min-distance 1% -o mesh.vtk
+  fsample mesh drawing.svg --max-edge 2mm -o mesh.stl")]
+pub(crate) struct MeshArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArg,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) triangles: TriangleArgs,
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+}
+
+/// Solve the Poisson problem −Δu = f around a drawing, with u given along its lines.
+///
+/// Meshes the drawing as `mesh` does and solves with linear elements. Lengths count in diagonals of the drawing, so that u
+/// does not depend on its units. With --source 0 the values given along the lines are interpolated as smoothly as possible
+/// (Laplace, steady heat, diffusion curves).
+///
+/// The value of a path is that of --path-value, else that of the attribute data-value of its element or of a group around
+/// it, else that of --value. Without -o, a table vertex,x,y,u goes to standard output.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  fsample simulate drawing.svg --max-edge 2% -o load.svg  a membrane under load, held along the lines
+  fsample simulate drawing.svg --graded --max-edge 3% -o load.vtk
+  fsample simulate drawing.svg --source 0 --path-value 0=1 --path-value wall=-1 -o heat.png
+  fsample simulate drawing.svg --source 0 --value 1 --max-edge 2% > values.csv")]
+pub(crate) struct SimulateArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArg,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    /// f, the same everywhere
+    #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Problem")]
+    pub(crate) source: f64,
+    /// u along paths that have no value of their own; none: they hold nothing
+    #[arg(long, value_name = "V", default_value = "0", allow_hyphen_values = true, help_heading = "Problem")]
+    pub(crate) value: GivenValue,
+    /// u along a path, by its index or id; may be repeated
+    #[arg(long, value_name = "PATH=V", allow_hyphen_values = true, help_heading = "Problem")]
+    pub(crate) path_value: Vec<PathValue>,
+    /// u along the rectangle; none: insulated
+    #[arg(long, value_name = "V", default_value = "0", allow_hyphen_values = true, help_heading = "Problem")]
+    pub(crate) frame_value: GivenValue,
+    /// Lines of equal value in pictures
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(0..=1000), help_heading = "Problem")]
+    pub(crate) contours: u16,
+    #[command(flatten)]
+    pub(crate) triangles: TriangleArgs,
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+}
+
+/// A finite number, or `none`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GivenValue(pub(crate) Option<f64>);
+
+impl std::str::FromStr for GivenValue {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" { Ok(Self(None)) } else { number(text).map(|value| Self(Some(value))) }
+    }
+}
+
+/// A path, by its index or its id, and a value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PathValue {
+    pub(crate) path: String,
+    pub(crate) value: GivenValue,
+}
+
+impl std::str::FromStr for PathValue {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        // An id may hold an equals sign, a number does not.
+        let (path, value) = text.rsplit_once('=').ok_or("write PATH=VALUE")?;
+        Ok(Self { path: path.to_owned(), value: value.parse()? })
+    }
+}
+
+/// What triangles have to be like.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Triangles")]
+pub(crate) struct TriangleArgs {
+    /// Longest edge [default: no limit]
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    pub(crate) max_edge: Option<Length>,
+    /// Smallest angle, in degrees, up to 33; beyond 20.7 it may take the limit of --max-vertices to end
+    #[arg(long, value_name = "DEG", default_value_t = mesh::DEFAULT_MIN_ANGLE, allow_negative_numbers = true)]
+    pub(crate) min_angle: f64,
+    /// Small triangles at small features, growing with the distance from them
+    #[arg(long)]
+    pub(crate) graded: bool,
+    /// Move vertices inside to more even places, N times over, where no bound breaks
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1000))]
+    pub(crate) smooth: u16,
+    /// Give up (exit code 5) where more vertices are needed
+    #[arg(long, value_name = "N", default_value_t = 2_000_000, value_parser = clap::value_parser!(u32).range(1..=200_000_000))]
+    pub(crate) max_vertices: u32,
+}
+
+impl TriangleArgs {
+    /// What can be said without the drawing.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        let most = mesh::LARGEST_MIN_ANGLE;
+        if !(0.0..=most).contains(&self.min_angle) {
+            let angle = self.min_angle;
+            return Err(Failure::usage(format!("--min-angle is {angle}; it lies between 0 and {most} degrees")));
+        }
+        self.max_edge.map_or(Ok(()), |length| above("max-edge", 0.0, length.value()).map(drop))
+    }
 }
 
 /// Compute the tables and figures of the paper again.

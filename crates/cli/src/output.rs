@@ -20,16 +20,26 @@ pub(crate) enum Format {
     Json,
     Gcode,
     Fsj,
+    Stl,
+    Obj,
+    Msh,
+    Vtk,
+    Png,
 }
 
 impl Format {
-    const ALL: [(&'static str, Self); 6] = [
+    const ALL: [(&'static str, Self); 11] = [
         ("svg", Self::Svg),
         ("ply", Self::Ply),
         ("csv", Self::Csv),
         ("json", Self::Json),
         ("gcode", Self::Gcode),
         ("fsj", Self::Fsj),
+        ("stl", Self::Stl),
+        ("obj", Self::Obj),
+        ("msh", Self::Msh),
+        ("vtk", Self::Vtk),
+        ("png", Self::Png),
     ];
 
     /// By its name, which is also its extension.

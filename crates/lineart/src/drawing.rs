@@ -74,6 +74,9 @@ pub struct DrawingPath {
     /// The stroke width in root user units (scaled by the square root of the transform's determinant); `None` where
     /// there is no stroke.
     pub stroke_width: Option<f64>,
+    /// The number in the attribute `data-value` of the element or of the nearest one around it: a value that simulations
+    /// are given along the path.
+    pub value: Option<f64>,
 }
 
 /// Something in the document that was left out or not honoured.

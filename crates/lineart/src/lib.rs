@@ -9,6 +9,7 @@ pub mod flatten;
 pub mod mesh;
 pub mod node;
 pub mod reconstruct;
+pub mod simulate;
 pub mod stretch;
 pub mod svg;
 pub mod text_in;

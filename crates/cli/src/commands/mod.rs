@@ -7,11 +7,13 @@ mod inspect;
 mod lfs;
 mod man;
 mod medial;
+mod mesh;
 mod nearest;
 mod reconstruct;
 mod reproduce;
 mod roots;
 mod sample;
+mod simulate;
 
 use crate::errors::Failure;
 use crate::options::Command;
@@ -26,6 +28,8 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Colour(args) => colour::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Reconstruct(args) => reconstruct::run(&args),
+        Command::Mesh(args) => mesh::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Roots(args) => roots::run(&args),
         Command::Nearest(args) => nearest::run(&args),

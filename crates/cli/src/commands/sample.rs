@@ -48,8 +48,6 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
         Format::Json => json::samples(out, &header, &paths),
         Format::Ply => ply::samples(out, &paths),
         Format::Gcode => gcode::samples(out, &header, &drawing, &machine, &paths),
-        // Written above.
-        Format::Fsj => Ok(()),
         Format::Svg => {
             let shown = |layer| args.layers.as_ref().is_none_or(|layers| layers.contains(&layer));
             let lfs = shown(Layer::Lfs).then(|| paths.iter().map(lfs_rows).collect::<Vec<_>>());
@@ -63,6 +61,8 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
             }
             .write(out)
         }
+        // A job was written above; the others are not offered.
+        _ => Ok(()),
     })?;
 
     summary.samples(&paths, &bounds);

@@ -1,4 +1,4 @@
-//! Results on their way out: CSV, JSON, PLY, SVG and G-code.
+//! Results on their way out: CSV, JSON, PLY, SVG and G-code; meshes in the formats of [`mesh`].
 //!
 //! A writer here takes *rows* (plain numbers and names, one struct per kind of table) and not the kernel's own types,
 //! so that results computed in any scalar leave through the same door, and so that the columns of a file are written
@@ -17,6 +17,7 @@ pub mod csv;
 pub mod edges;
 pub mod gcode;
 pub mod json;
+pub mod mesh;
 pub mod number;
 mod palette;
 pub mod ply;

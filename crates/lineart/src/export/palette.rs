@@ -1,11 +1,12 @@
-//! Colours for lfs.
+//! Colours for lfs and for values on meshes.
 //!
 //! Local feature size spans decades, and small values are the interesting ones, so the scale is logarithmic. The colours
 //! are those of viridis (van der Walt and Smith 2015, public domain): equal steps look equal, also in grey and to
-//! colour-blind readers. Its last fifth runs into yellow, which cannot be read on white paper, and is left out.
+//! colour-blind readers. Its last fifth runs into
+//! yellow, which cannot be read on white paper: lines leave it out, areas do not.
 
-/// Every fifteenth of viridis, from its dark end; the last three steps (towards yellow) are not used.
-const VIRIDIS: [[u8; 3]; 13] = [
+/// Viridis in fifteen steps.
+const VIRIDIS: [[u8; 3]; 16] = [
     [0x44, 0x01, 0x54],
     [0x48, 0x1a, 0x6c],
     [0x47, 0x2f, 0x7d],
@@ -19,29 +20,49 @@ const VIRIDIS: [[u8; 3]; 13] = [
     [0x35, 0xb7, 0x79],
     [0x54, 0xc5, 0x68],
     [0x7a, 0xd1, 0x51],
+    [0xa5, 0xdb, 0x36],
+    [0xd2, 0xe2, 0x1b],
+    [0xfd, 0xe7, 0x25],
 ];
+
+/// How many of them lines on white paper use.
+const ON_PAPER: usize = 13;
 
 /// The colour of an infinite lfs: it is not on the scale.
 pub(super) const INFINITE: &str = "#9e9e9e";
 
 /// The colour at a place in [0, 1] of the scale.
 pub(super) fn colour(place: f64) -> String {
-    let steps = VIRIDIS.len() - 1;
+    hex(blend(&VIRIDIS[..ON_PAPER], place))
+}
+
+/// The colour at a place in [0, 1] of the whole of viridis, for areas.
+pub(super) fn full(place: f64) -> String {
+    hex(full_channels(place))
+}
+
+/// The same as red, green and blue.
+pub(super) fn full_channels(place: f64) -> [u8; 3] {
+    blend(&VIRIDIS, place)
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+fn blend(colours: &[[u8; 3]], place: f64) -> [u8; 3] {
+    let steps = colours.len() - 1;
     let scaled = place.clamp(0.0, 1.0) * steps as f64;
-    let (mut low, mut part) = (VIRIDIS[0], scaled);
-    let mut high = VIRIDIS[0];
-    for pair in VIRIDIS.windows(2) {
+    let (mut low, mut part) = (colours[0], scaled);
+    let mut high = colours[0];
+    for pair in colours.windows(2) {
         [low, high] = [pair[0], pair[1]];
         if part <= 1.0 {
             break;
         }
         part -= 1.0;
     }
-    let [r, g, b] = [0, 1, 2].map(|i| {
-        let mixed = f64::from(low[i]) + part * (f64::from(high[i]) - f64::from(low[i]));
-        format!("{:02x}", f64_to_channel(mixed))
-    });
-    format!("#{r}{g}{b}")
+    [0, 1, 2].map(|i| channel(f64::from(low[i]) + part * (f64::from(high[i]) - f64::from(low[i]))))
 }
 
 /// A channel value, rounded.
@@ -50,7 +71,7 @@ pub(super) fn colour(place: f64) -> String {
     clippy::cast_sign_loss,
     reason = "the cast saturates at both ends of a byte"
 )]
-fn f64_to_channel(value: f64) -> u8 {
+pub(super) fn channel(value: f64) -> u8 {
     value.round() as u8
 }
 

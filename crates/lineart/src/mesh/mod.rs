@@ -18,9 +18,12 @@
 //! such lines ([`Mesh::excused`] counts them); the edges, lines included, are Delaunay. If the limit on vertices is reached, or something
 //! cannot be refined, the [`Outcome`] says so. The same input gives the same bytes.
 
+pub mod curved;
+pub mod drawn;
 mod queue;
 mod refine;
 pub mod size;
+pub mod smooth;
 mod start;
 mod triangles;
 
@@ -60,7 +63,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { min_angle: DEFAULT_MIN_ANGLE, size: Size::Unbounded, max_vertices: 4_000_000 }
+        Self { min_angle: DEFAULT_MIN_ANGLE, size: Size::Unbounded, max_vertices: 2_000_000 }
     }
 }
 
@@ -85,6 +88,34 @@ pub struct Border {
     pub line: Option<u32>,
     /// Vertices, in the direction of the line.
     pub ends: [u32; 2],
+}
+
+/// How a mesh turned out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// The smallest angle, in degrees.
+    pub min_angle: f64,
+    /// The longest edge.
+    pub longest: f64,
+    /// The shortest edge.
+    pub shortest: f64,
+}
+
+impl Mesh {
+    /// Angles and lengths over all triangles.
+    pub fn quality(&self) -> Quality {
+        let mut quality = Quality { min_angle: 60.0, longest: 0.0, shortest: f64::INFINITY };
+        for triangle in &self.triangles {
+            let p = triangle.map(|v| self.points[v as usize]);
+            for i in 0..3 {
+                let (u, v) = (p[(i + 1) % 3].minus(&p[i]), p[(i + 2) % 3].minus(&p[i]));
+                quality.min_angle = quality.min_angle.min(u.cross(&v).atan2(u.dot(&v)).to_degrees());
+                quality.longest = quality.longest.max(u.norm());
+                quality.shortest = quality.shortest.min(u.norm());
+            }
+        }
+        quality
+    }
 }
 
 /// A mesh, and whether it is all that was asked for.

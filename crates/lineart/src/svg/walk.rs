@@ -403,6 +403,7 @@ impl<'a> Reader<'a, '_> {
         })?;
         let stroke = &context.style.stroke;
         let width = context.style.stroke_width * context.to_root.mean_scale();
+        let value = self.given_value(element);
         for (index, subpath) in subpaths.into_iter().enumerate() {
             self.cubics += subpath.cubics.len();
             if self.cubics > MAX_CUBICS {
@@ -418,9 +419,20 @@ impl<'a> Reader<'a, '_> {
                 fill: context.style.fill.clone(),
                 stroke: stroke.clone(),
                 stroke_width: stroke.is_some().then_some(width).filter(|w| w.is_finite()),
+                value,
             });
         }
         Ok(())
+    }
+
+    /// The number in the attribute `data-value` of an element, or of the nearest one around it that has it.
+    fn given_value(&mut self, element: Node<'a, 'a>) -> Option<f64> {
+        let text = element.ancestors().find_map(|node| node.attribute("data-value"))?;
+        let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
+        if value.is_none() {
+            self.warn(element, format!("data-value is “{text}”, which is no finite number"));
+        }
+        value
     }
 }
 

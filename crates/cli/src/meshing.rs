@@ -2,10 +2,9 @@
 
 use lineart::drawing::Drawing;
 use lineart::export::number::Readable;
-use lineart::mesh::drawn::Drawn;
+use lineart::mesh::drawn::{Drawn, noding};
 use lineart::mesh::smooth::smooth;
 use lineart::mesh::{self, Mesh, Outcome, Size};
-use lineart::node;
 
 use crate::engine::{Bounds, Engine, ModelOptions};
 use crate::errors::{Failure, shown, warn};
@@ -39,7 +38,7 @@ pub(crate) fn meshed(
     let samples = engine.sample(bounds)?;
     drop(progress);
     let limit = |message: String| Failure::limit(format!("{}: {message}", shown(&drawing.source)));
-    let noding = node::Options::for_drawing(diagonal, bounds.min_distance);
+    let noding = noding(diagonal, bounds.min_distance);
     let drawn = Drawn::new(&drawing.paths, &samples, &noding)
         .map_err(|error| limit(format!("{error}; ask for less detail with --min-distance")))?;
     let size = match (args.graded, longest.is_finite()) {

@@ -528,10 +528,18 @@ pub(crate) enum ExperimentName {
     Table2,
     /// How far nine reconstruction algorithms reach under ε-sampling, on the curve named complex or else the first
     Table3,
+    /// Triangles, time and error of the simulation on meshes of six densities
+    Table4,
     /// Exact reconstructions of real-world outlines
     Figure6,
     /// Exact reconstructions by ε, on the same curve as table3
     Figure7,
+    /// The same as plots, and error against triangles
+    Figure10,
+    /// Pictures of meshes
+    Figure12,
+    /// Pictures of meshes and simulations of the first curve at six densities
+    Figure13,
     /// All of them
     All,
 }

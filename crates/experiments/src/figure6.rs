@@ -124,6 +124,6 @@ impl Experiment for Figure6 {
                     .to_owned(),
             );
         }
-        Ok(Report { name: "figure6", tables: vec![table], plots: vec![], bars: vec![bars] })
+        Ok(Report { name: "figure6", tables: vec![table], plots: vec![], bars: vec![bars], pictures: vec![] })
     }
 }

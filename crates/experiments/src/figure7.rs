@@ -53,7 +53,13 @@ impl Experiment for Figure7 {
         }
         table.notes = columns.iter().map(|column| format!("*{}*: {}.", column.key, column.label)).collect();
         table.notes.push("accord is this project's own and not in the paper.".to_owned());
-        Ok(Report { name: "figure7", tables: vec![table], plots: columns.iter().map(plot).collect(), bars: vec![] })
+        Ok(Report {
+            name: "figure7",
+            tables: vec![table],
+            plots: columns.iter().map(plot).collect(),
+            bars: vec![],
+            pictures: vec![],
+        })
     }
 }
 

@@ -18,6 +18,9 @@
 //! | [`silhouette`], [`figure6`] | outlines of images and drawings, and their reconstruction |
 //! | [`study`] | the reconstruction study: sample sets, correctness, shares by ε |
 //! | [`table3`], [`figure7`] | the study as a table and as a plot |
+//! | [`meshing`], [`mesh_study`] | sampling, meshing and simulating at a density; all modes and densities |
+//! | [`table4`], [`figure10`] | the study as a table and as plots |
+//! | [`figure12`] | Figures 12 and 13: pictures of meshes and simulations |
 //! | [`table2`] | Table 2: hull test and quintic solver; [`shrinking`] is the paper's method, [`companion`] the general solver |
 //!
 //! What the paper prints is kept beside what is computed, in the module of its table.
@@ -25,8 +28,12 @@
 pub mod bars;
 pub mod clock;
 pub mod companion;
+pub mod figure10;
+pub mod figure12;
 pub mod figure6;
 pub mod figure7;
+pub mod mesh_study;
+pub mod meshing;
 pub mod plot;
 pub mod prototype;
 pub mod report;
@@ -38,6 +45,7 @@ pub mod study;
 pub mod table1;
 pub mod table2;
 pub mod table3;
+pub mod table4;
 
 pub use report::Report;
 

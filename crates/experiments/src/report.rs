@@ -19,6 +19,8 @@ pub struct Report {
     pub plots: Vec<Plot>,
     /// Bar charts.
     pub bars: Vec<Bars>,
+    /// Other pictures: names of files, and what is in them.
+    pub pictures: Vec<(String, String)>,
 }
 
 /// A table.
@@ -189,6 +191,7 @@ impl Report {
         files.extend(self.tables.iter().map(|table| (format!("{}.csv", table.name), table.csv())));
         files.extend(self.plots.iter().map(|plot| (format!("{}.svg", plot.name), plot.svg())));
         files.extend(self.bars.iter().map(|bars| (format!("{}.svg", bars.name), bars.svg())));
+        files.extend(self.pictures.iter().cloned());
         files
     }
 }
@@ -223,7 +226,7 @@ mod tests {
             table.markdown(),
             "## A, b\n| name | value | count |\n|---|---|---|\n| a,b\\|\"c\" | 0.333 | 7 |\n| d | – | inf |\n\nA note.\n"
         );
-        let report = Report { name: "t", tables: vec![table], plots: vec![], bars: vec![] };
+        let report = Report { name: "t", tables: vec![table], plots: vec![], bars: vec![], pictures: vec![] };
         let json: serde_json::Value = serde_json::from_str(&report.json()).expect("JSON");
         assert_eq!(json["tables"][0]["rows"][0][1], 1.0 / 3.0, "all digits");
         assert!(json["tables"][0]["rows"][1][2].is_null(), "JSON knows no infinity");

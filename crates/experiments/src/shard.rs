@@ -235,7 +235,7 @@ mod tests {
             for found in findings {
                 table.rows.push(vec![Cell::number(found.first().map_or(0.0, |finding| finding.value))]);
             }
-            Ok(Report { name: "squares", tables: vec![table], plots: vec![], bars: vec![] })
+            Ok(Report { name: "squares", tables: vec![table], plots: vec![], bars: vec![], pictures: vec![] })
         }
     }
 

@@ -493,7 +493,7 @@ impl Experiment for Table1 {
                 .collect(),
         })
         .collect();
-        Ok(Report { name: "table1", tables: vec![table, agreement], plots, bars: vec![] })
+        Ok(Report { name: "table1", tables: vec![table, agreement], plots, bars: vec![], pictures: vec![] })
     }
 }
 

@@ -143,7 +143,7 @@ impl Experiment for Table2 {
         }
         let shipped = self.curves.iter().any(|curve| curve.shipped);
         table.notes = notes(shipped);
-        Ok(Report { name: "table2", tables: vec![table], plots: vec![], bars: vec![] })
+        Ok(Report { name: "table2", tables: vec![table], plots: vec![], bars: vec![], pictures: vec![] })
     }
 }
 

@@ -81,7 +81,7 @@ impl Experiment for Table3 {
                     .to_owned(),
             );
         }
-        Ok(Report { name: "table3", tables: vec![table], plots: vec![], bars: vec![] })
+        Ok(Report { name: "table3", tables: vec![table], plots: vec![], bars: vec![], pictures: vec![] })
     }
 }
 

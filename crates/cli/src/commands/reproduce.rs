@@ -11,6 +11,9 @@ use std::path::Path;
 
 use fsample_experiments::figure6::Figure6;
 use fsample_experiments::figure7::Figure7;
+use fsample_experiments::figure10::Figure10;
+use fsample_experiments::figure12::{Figure12, Pictures};
+use fsample_experiments::mesh_study::MeshStudy;
 use fsample_experiments::shard::{self, Part, Shard};
 use fsample_experiments::silhouette::Outline;
 use fsample_experiments::source::Source;
@@ -18,6 +21,7 @@ use fsample_experiments::study::Study;
 use fsample_experiments::table1::Table1;
 use fsample_experiments::table2::Table2;
 use fsample_experiments::table3::Table3;
+use fsample_experiments::table4::Table4;
 use fsample_experiments::{Experiment, Report};
 use lineart::drawing::Drawing;
 use lineart::export::atomic;
@@ -58,6 +62,14 @@ fn experiments(args: &ReproduceArgs) -> Result<Vec<Box<dyn Experiment>>, Failure
             ExperimentName::Table3 => list.push(Box::new(Table3::new(study(args, &curves)?))),
             ExperimentName::Figure6 => list.push(Box::new(figure6(args, &curves)?)),
             ExperimentName::Figure7 => list.push(Box::new(Figure7::new(study(args, &curves)?))),
+            ExperimentName::Table4 => {
+                list.push(Box::new(Table4::new(MeshStudy::new(meshed(args, &curves)?, args.quick))))
+            }
+            ExperimentName::Figure10 => {
+                list.push(Box::new(Figure10::new(MeshStudy::new(meshed(args, &curves)?, args.quick))));
+            }
+            ExperimentName::Figure12 => list.push(Box::new(Figure12::new(meshed(args, &curves)?, Pictures::Meshes))),
+            ExperimentName::Figure13 => list.push(Box::new(Figure12::new(meshed(args, &curves)?, Pictures::Densities))),
             ExperimentName::Table2 => list.push(Box::new(Table2::new(curves.clone(), args.quick))),
             // Names of many were told apart already.
             ExperimentName::All => {}
@@ -91,6 +103,17 @@ fn figure6(args: &ReproduceArgs, curves: &[Source]) -> Result<Figure6, Failure> 
         return Err(Failure::usage("figure6 needs closed paths, and the drawings given have none"));
     }
     Ok(Figure6::new(outlines, args.curve.is_empty() && args.masks.is_empty()))
+}
+
+/// What is meshed: the drawings given, and as many of those that come with the program as make five.
+fn meshed(args: &ReproduceArgs, curves: &[Source]) -> Result<Vec<Source>, Failure> {
+    let mut sources = if args.curve.is_empty() { Vec::new() } else { curves.to_vec() };
+    for (name, text) in [ALL_SHIPPED[3], ALL_SHIPPED[1], ALL_SHIPPED[4], ALL_SHIPPED[6], ALL_SHIPPED[5]] {
+        if sources.len() < 5 {
+            sources.push(shipped(name, text)?);
+        }
+    }
+    Ok(sources)
 }
 
 fn shipped(name: &str, text: &str) -> Result<Source, Failure> {

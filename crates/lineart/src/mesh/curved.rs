@@ -9,6 +9,10 @@
 //! derivatives is a polynomial of degree four; if its fifteen Bernstein coefficients are positive it is. Where one is not,
 //! the triangle is cut in four, down to a sixteenth of its sides; what is not positive then counts as folded.
 //!
+//! **Ears.** Where two sides of a triangle are neighbouring pieces of one smooth curve, they meet at 180° once bent: the
+//! determinant is 0 in that corner, however dense the samples are, and the paper's claim cannot hold there. Such triangles
+//! are listed on their own, and judged with one bent side at a time.
+//!
 //! A chord that stands for pieces of several cubics makes several triangles, with the far corner in common.
 
 use feature_sampling::bezier::Cubic;
@@ -22,8 +26,10 @@ use crate::node::Track;
 /// What bending came to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bent {
-    /// Triangles with a side on a curve; one that stands for several counts as often.
+    /// Triangles with a side on a curve, once for each cubic along it.
     pub triangles: usize,
+    /// Those with two bent sides or more: their index in the mesh.
+    pub ears: Vec<usize>,
     /// Those whose determinant is not positive everywhere: their index in the mesh.
     pub folded: Vec<usize>,
 }
@@ -75,19 +81,22 @@ pub fn bend(mesh: &Mesh, drawn: &Drawn, paths: &[DrawingPath]) -> Bent {
         let p = triangle.map(|v| points[v as usize]);
         let sides: [Option<Vec<Cubic<f64>>>; 3] = std::array::from_fn(|i| piece(triangle[i], triangle[(i + 1) % 3]));
         let straight: [Cubic<f64>; 3] = std::array::from_fn(|i| Cubic::line(p[i], p[(i + 1) % 3]));
-        let several = sides.iter().position(|side| side.as_ref().is_some_and(|side| side.len() > 1));
+        let curved = sides.iter().filter(|side| side.is_some()).count();
+        if curved > 1 {
+            bent.ears.push(index);
+        }
         let mut fine = true;
-        if let Some(i) = several {
+        for (i, side) in sides.iter().enumerate() {
             let far = p[(i + 2) % 3];
-            for cubic in sides[i].iter().flatten() {
+            for cubic in side.iter().flatten() {
                 bent.triangles += 1;
                 fine &=
                     is_positive(&net(&[*cubic, Cubic::line(*cubic.end(), far), Cubic::line(far, *cubic.start())]), 4);
             }
-        } else {
-            bent.triangles += usize::from(sides.iter().any(Option::is_some));
-            let side = |i: usize| sides[i].as_ref().and_then(|side| side.first()).copied().unwrap_or(straight[i]);
-            fine = is_positive(&net(&[side(0), side(1), side(2)]), 4);
+        }
+        if curved == 0 {
+            // Its corners may have moved.
+            fine = is_positive(&net(&straight), 0);
         }
         if !fine {
             bent.folded.push(index);
@@ -132,8 +141,7 @@ fn is_positive(net: &Net, depth: u32) -> bool {
     }
     // Coefficients at corners are values.
     let corners = [coefficients[at(0, 0, 4)], coefficients[at(4, 0, 4)], coefficients[at(0, 4, 4)]];
-    // Also true for NaN.
-    if depth == 0 || corners.iter().any(|value| !(*value > 0.0)) {
+    if depth == 0 || corners.iter().any(|value| value.is_nan() || *value <= 0.0) {
         return false;
     }
     quarters(net).iter().all(|quarter| is_positive(quarter, depth - 1))

@@ -5,10 +5,12 @@
 //! triangles can be bent to the curve again ([`super::curved`]).
 //!
 //! Where nothing had to be cut or merged, vertices are the samples to the bit; else they are points of the noder's lattice,
-//! at most its pitch away.
+//! at most its pitch away ([`noding`]).
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::geometry::{Aabb, Point};
+use feature_sampling::model::{CurveModel, MedialModel};
+use feature_sampling::sampling::{SamplingError, SamplingOptions};
 
 use super::size::{Graded, Size, Wish};
 use super::{Lines, Mesh};
@@ -28,6 +30,13 @@ pub const GRADED_SHARE: f64 = 1.0;
 
 /// What a unit of distance adds to graded sizes.
 pub const GRADED_GROWTH: f64 = 0.5;
+
+/// How lines are noded for meshing: the pitch is a hundred-thousandth of the diagonal, or a hundredth of the smallest distance
+/// of samples if that is more. Ten times the noder's own default: between two strokes that run beside each other at a pitch,
+/// fair triangles are as small as the pitch, and there are as many of them as the strokes are long.
+pub fn noding(diagonal: f64, min_distance: Option<f64>) -> node::Options {
+    node::Options::new((1e-5 * diagonal).max(min_distance.unwrap_or(0.0) / 100.0))
+}
 
 /// A drawing as lines in a rectangle.
 #[derive(Clone, Debug, Default)]
@@ -125,6 +134,31 @@ impl Drawn {
         }
         given
     }
+}
+
+/// Samples of a drawing as rows by path, without the names of the bounds that decided them.
+///
+/// # Errors
+/// Those of the sampler.
+pub fn sampled(
+    paths: &[DrawingPath],
+    curve: &CurveModel<f64>,
+    medial: &MedialModel<f64>,
+    options: &SamplingOptions<f64>,
+) -> Result<Vec<PathRows<SampleRow>>, SamplingError> {
+    let empty = |path: &DrawingPath| PathRows { closed: path.closed, rows: Vec::new() };
+    let mut out: Vec<PathRows<SampleRow>> = paths.iter().map(empty).collect();
+    for (index, path) in (0_u32..).zip(curve.curve().paths) {
+        let row = |sample: &feature_sampling::sampling::Sample<f64>| {
+            let (path, segment, t) = curve.source(&sample.at);
+            SampleRow { path, segment, t, x: sample.point.x, y: sample.point.y, lfs: sample.lfs, bound: "" }
+        };
+        let samples = curve.sample_path(medial, index, options)?;
+        if let Some(place) = out.get_mut(path.source as usize) {
+            *place = PathRows { closed: path.closed, rows: samples.iter().map(row).collect() };
+        }
+    }
+    Ok(out)
 }
 
 /// What the samples of a path ask for.

@@ -361,12 +361,16 @@ impl<'a> Refinement<'a> {
             (Stand::On(first), Stand::On(second)) if first != second => self.common_apex(first, second),
             (Stand::On(first), Stand::Input) => self.other_end(first, b),
             (Stand::Input, Stand::On(second)) => self.other_end(second, a),
+            (Stand::Input, Stand::Input) => self.apex_of_ends(a, b),
             _ => None,
         };
         let Some(apex) = shared.map(|apex| self.mesh.point(apex)) else { return Excuse::None };
-        let (to_a, to_b) = (apex.distance(&self.mesh.point(a)), apex.distance(&self.mesh.point(b)));
+        let (to_a, to_b) = (self.mesh.point(a).minus(&apex), self.mesh.point(b).minus(&apex));
+        let (length_a, length_b) = (to_a.norm(), to_b.norm());
+        // The apex may be sharp on account of other lines.
+        let sharp = to_a.dot(&to_b) > 0.5 * (length_a * length_b);
         // Cuts on one shell differ by rounding only, cuts on different shells by a quarter at least.
-        if (to_a - to_b).abs() <= 1e-3 * to_a { Excuse::Shell } else { Excuse::None }
+        if sharp && (length_a - length_b).abs() <= 1e-3 * length_a { Excuse::Shell } else { Excuse::None }
     }
 
     /// The sharp apex that two lines share.
@@ -382,6 +386,18 @@ impl<'a> Refinement<'a> {
         let apexes = line.ends.into_iter().zip(line.sharp).filter(|(_, sharp)| *sharp).map(|(end, _)| end);
         let mut joined = apexes.filter(|&end| end != vertex);
         joined.find(|&end| self.is_joined(end, vertex))
+    }
+
+    /// The sharp apex that lines join to both of two input vertices.
+    fn apex_of_ends(&self, a: u32, b: u32) -> Option<u32> {
+        let mut found = None;
+        self.mesh.around(a, |h| {
+            let line = self.mesh.line(h);
+            if line != NONE && found.is_none() {
+                found = self.other_end(line, b).filter(|&end| end != a);
+            }
+        });
+        found
     }
 
     /// One line, cut or not, joins two input vertices: the last piece at the second vertex belongs to a line from the first.

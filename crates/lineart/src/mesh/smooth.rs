@@ -22,10 +22,8 @@ pub fn smooth(mesh: &mut Mesh, options: &Options, rounds: u32) -> usize {
     let mut moved = 0;
     for _ in 0..rounds {
         let before = moved;
-        for vertex in 0..mesh.points.len() {
-            if !fixed[vertex] {
-                moved += usize::from(around.improve(mesh, options, sine_sq, vertex));
-            }
+        for (vertex, _) in fixed.iter().enumerate().filter(|(_, fixed)| !**fixed) {
+            moved += usize::from(around.improve(mesh, options, sine_sq, vertex));
         }
         if moved == before {
             break;

@@ -17,7 +17,7 @@ pub struct Contour {
 
 /// `count` values that divide a range into `count + 1` equal parts; none where the range is empty.
 pub fn levels(least: f64, greatest: f64, count: usize) -> Vec<f64> {
-    if !(greatest > least) {
+    if greatest.partial_cmp(&least) != Some(std::cmp::Ordering::Greater) {
         return Vec::new();
     }
     (1..=count).map(|i| least + (greatest - least) * (i as f64 / (count + 1) as f64)).collect()

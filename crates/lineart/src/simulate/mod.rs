@@ -268,8 +268,7 @@ fn assemble(mesh: &Mesh) -> Result<Assembled, SimulateError> {
     for (index, triangle) in mesh.triangles.iter().enumerate() {
         let p = triangle.map(|v| mesh.points[v as usize]);
         let double = p[1].minus(&p[0]).cross(&p[2].minus(&p[0]));
-        // Also false for NaN.
-        if !(double > 0.0) {
+        if double.is_nan() || double <= 0.0 {
             return Err(SimulateError::Flat { triangle: index });
         }
         for i in 0..3 {

@@ -41,6 +41,35 @@ pub trait Store<T> {
     fn shorten(&mut self, len: usize);
 }
 
+/// Where items go that are not looked at again: any [`Store`], or something that keeps less of them.
+pub trait Sink<T> {
+    /// Takes an item.
+    ///
+    /// # Errors
+    /// [`BufferFull`] where there is no room.
+    fn take(&mut self, item: T) -> Result<(), BufferFull>;
+}
+
+impl<T, X: Store<T>> Sink<T> for X {
+    #[inline]
+    fn take(&mut self, item: T) -> Result<(), BufferFull> {
+        self.push(item)
+    }
+}
+
+/// Appends to a list that is known to have room; unlike `push` it links no panic.
+pub(crate) trait Keep<T> {
+    fn keep(&mut self, item: T);
+}
+
+impl<T, const N: usize> Keep<T> for arrayvec::ArrayVec<T, N> {
+    #[inline]
+    fn keep(&mut self, item: T) {
+        let kept = self.try_push(item).is_ok();
+        debug_assert!(kept, "a list of {N} items is full");
+    }
+}
+
 /// A [`Store`] in a slice that the caller lends.
 #[derive(Debug)]
 pub struct SliceStore<'a, T> {

@@ -97,6 +97,7 @@ pub mod lfs;
 pub mod medial;
 #[cfg(feature = "alloc")]
 pub mod model;
+mod order;
 pub mod polynomial;
 pub mod predicate;
 pub mod sampling;

@@ -13,6 +13,7 @@
 //! by a power of two changes no result, since tolerances are relative to the cubic's own size.
 
 use super::PowerBasis;
+use crate::buffer::Keep;
 use crate::geometry::Vector;
 use crate::polynomial::Polynomial;
 use crate::scalar::Scalar;
@@ -91,10 +92,28 @@ fn accumulate<S: Scalar, const N: usize>(p: &mut [S; N], i: usize, term: S) {
     }
 }
 
-/// Root values in [0, 1]; none for the zero polynomial or one that overflowed.
-fn roots<S: Scalar, const N: usize, const M: usize>(p: [S; N]) -> ArrayVec<S, M> {
-    let found = Polynomial::new(p).roots_in_unit().unwrap_or_default();
-    found.into_iter().take(M).map(|r| r.value).collect()
+/// Root values in [0, 1], at most `M`; none for the zero polynomial or one that overflowed.
+///
+/// A scalar of few bits is a chip's: there every polynomial goes through the quintics' code, the only instance that is
+/// linked, and 9 KiB of flash are worth more than the time.
+pub(crate) fn roots<S: Scalar, const N: usize, const M: usize>(p: [S; N]) -> ArrayVec<S, M> {
+    if S::BITS <= f32::MANTISSA_DIGITS && N < 6 {
+        let mut all: [S; 6] = core::array::from_fn(|_| S::zero());
+        for (wide, own) in all.iter_mut().zip(p) {
+            *wide = own;
+        }
+        return values(&Polynomial::new(all));
+    }
+    values(&Polynomial::new(p))
+}
+
+fn values<S: Scalar, const N: usize, const M: usize>(p: &Polynomial<S, N>) -> ArrayVec<S, M> {
+    let found = p.roots_in_unit().unwrap_or_default();
+    let mut values = ArrayVec::new();
+    for root in found.into_iter().take(M) {
+        values.keep(root.value);
+    }
+    values
 }
 
 /// A cubic brought to a size near 1 by its largest coefficient, and the noise of products of its coefficients.

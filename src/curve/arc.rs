@@ -8,8 +8,9 @@
 
 use super::Segment;
 use crate::bezier::critical;
-use crate::buffer::{BufferFull, Store};
+use crate::buffer::{BufferFull, Keep, Store};
 use crate::geometry::Aabb;
+use crate::order::sort;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -45,7 +46,7 @@ pub(super) fn cut<S: Scalar>(
             break;
         }
     }
-    cuts.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(core::cmp::Ordering::Equal));
+    sort(&mut cuts, |a, b| a < b);
     // A cut closer than this to the one before it adds nothing.
     let least = S::unit_roundoff().sqrt();
     let mut from = S::zero();
@@ -68,7 +69,7 @@ fn halve<S: Scalar>(
     arcs: &mut impl Store<Arc<S>>,
 ) -> Result<(), BufferFull> {
     let mut ends: ArrayVec<S, 13> = ArrayVec::new();
-    ends.push(to.clone());
+    ends.keep(to.clone());
     let mut start = from.clone();
     while let Some(end) = ends.last().cloned() {
         let (u, w) = (segment.tangent(&start), segment.tangent(&end));

@@ -10,7 +10,7 @@
 
 use super::nearest::{Locality, nearest_beside, nearest_non_local};
 use super::{Arc, Curve, CurveParam, JointKind, Segment};
-use crate::buffer::{BufferFull, Store};
+use crate::buffer::{BufferFull, Keep, Store};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -68,7 +68,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
     ) -> Result<(), BufferFull> {
         let mut from = arc.span[0].clone();
         let mut pending: ArrayVec<S, 56> = ArrayVec::new();
-        pending.push(arc.span[1].clone());
+        pending.keep(arc.span[1].clone());
         while let Some(to) = pending.pop() {
             let middle = S::midpoint(&from, &to);
             let (a, b) = (segment.point(&from), segment.point(&to));
@@ -101,8 +101,8 @@ impl<S: Scalar> Finder<'_, '_, S> {
                 }
                 from = to;
             } else if pending.remaining_capacity() >= 2 {
-                pending.push(to);
-                pending.push(middle);
+                pending.keep(to);
+                pending.keep(middle);
             } else {
                 from = to;
             }
@@ -149,7 +149,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
             if ahead.clone().abs() <= self.reach {
                 return false;
             }
-            gaps.push(ahead);
+            gaps.keep(ahead);
         }
         let (Some(other), [a, m, b]) = (other, gaps.as_slice()) else { return false };
         let same_side = (*a > S::zero()) == (*m > S::zero()) && (*m > S::zero()) == (*b > S::zero());

@@ -134,6 +134,15 @@ pub struct Path {
     pub closed: bool,
 }
 
+impl Path {
+    /// Segments counted around the path.
+    #[inline]
+    pub(crate) fn around(&self, k: u32) -> u32 {
+        // A path has a segment; one without would otherwise link the panic of a division by zero.
+        k.checked_rem(self.count).unwrap_or(0)
+    }
+}
+
 /// The curve C, borrowed from the buffers that [`door::enter`] filled.
 #[derive(Clone, Copy, Debug)]
 pub struct Curve<'a, S> {
@@ -145,6 +154,8 @@ pub struct Curve<'a, S> {
     pub arcs: &'a [Arc<S>],
     /// The hierarchy over the arcs.
     pub nodes: &'a [Node<S>],
+    /// Consecutive arcs that share a leaf of the hierarchy, at least 1.
+    pub leaf: u32,
     /// Diagonal of the box of all control points of the drawing: the unit of relative tolerances.
     pub diagonal: &'a S,
     /// Largest error of a difference of two coordinates: a few roundoffs of the largest coordinate.
@@ -158,10 +169,17 @@ impl<'a, S: Scalar> Curve<'a, S> {
         self.segments.get(index as usize)
     }
 
-    /// The hierarchy over the arcs; its items are indices into [`Self::arcs`].
+    /// The hierarchy over the arcs; its items are leaves, see [`Self::arcs_in`].
     #[inline]
     pub const fn hierarchy(&self) -> Hierarchy<'a, S> {
         Hierarchy::new(self.nodes)
+    }
+
+    /// The arcs of a leaf of the hierarchy, with their indices into [`Self::arcs`].
+    #[inline]
+    pub fn arcs_in(&self, leaf: u32) -> impl Iterator<Item = (u32, &'a Arc<S>)> + use<'a, S> {
+        let first = leaf.saturating_mul(self.leaf);
+        (first..first.saturating_add(self.leaf)).zip(self.arcs.get(first as usize..).unwrap_or_default())
     }
 
     /// The arcs of a segment.

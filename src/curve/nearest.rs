@@ -103,7 +103,7 @@ pub fn nearest_non_local<S: Scalar>(
     locality: &Locality<S>,
     limit_sq: S,
 ) -> Option<NearPoint<S>> {
-    nearest_where(curve, p, limit_sq, |segment, arc| !locality.holds(segment, arc))
+    nearest_beside(curve, p, core::slice::from_ref(locality), limit_sq)
 }
 
 /// The point of C nearest to p among what is local to none of some places, if it is nearer than `limit_sq`.
@@ -128,13 +128,14 @@ fn nearest_where<S: Scalar>(
         &mut state,
         |s| s.0.clone(),
         |(bound, best), item| {
-            let Some(arc) = curve.arcs.get(item as usize) else { return };
-            let Some(segment) = curve.segment(arc.segment) else { return };
-            if admit(segment, arc) {
-                let near = nearest_on_arc(segment, arc, p);
-                if near.distance_sq < *bound {
-                    *bound = near.distance_sq.clone();
-                    *best = Some(near);
+            for (_, arc) in curve.arcs_in(item) {
+                let Some(segment) = curve.segment(arc.segment) else { return };
+                if admit(segment, arc) {
+                    let near = nearest_on_arc(segment, arc, p);
+                    if near.distance_sq < *bound {
+                        *bound = near.distance_sq.clone();
+                        *best = Some(near);
+                    }
                 }
             }
         },

@@ -6,6 +6,7 @@
 
 use super::{Segment, Twin};
 use crate::geometry::Point;
+use crate::order::sort;
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
 
@@ -14,9 +15,9 @@ pub(super) fn mark<S: Scalar>(segments: &mut [Segment<S>], order: &mut [u32]) {
     for (slot, i) in order.iter_mut().zip(0_u32..) {
         *slot = i;
     }
-    order.sort_unstable_by(|&a, &b| match (segments.get(a as usize), segments.get(b as usize)) {
-        (Some(x), Some(y)) => compare(x, y).then(a.cmp(&b)),
-        _ => a.cmp(&b),
+    sort(order, |&a, &b| match (segments.get(a as usize), segments.get(b as usize)) {
+        (Some(x), Some(y)) => compare(x, y).then(a.cmp(&b)) == Ordering::Less,
+        _ => a < b,
     });
     let mut leader: Option<u32> = None;
     for &i in order.iter() {

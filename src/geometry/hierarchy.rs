@@ -7,10 +7,10 @@
 //! O(n log n) and no memory beside the nodes and the list of items, both lent.
 
 use super::{Aabb, Point};
-use crate::buffer::{BufferFull, Store};
+use crate::buffer::{BufferFull, Keep, Store};
+use crate::order::select;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
-use core::cmp::Ordering;
 
 /// Levels of a tree over u32::MAX items, and the room that a traversal needs.
 pub const MAX_DEPTH: usize = 40;
@@ -57,7 +57,7 @@ pub fn build<S: Scalar>(items: &mut [Item<S>], nodes: &mut impl Store<Node<S>>) 
     // Ranges of items still to be placed, with the node whose right child they are.
     let mut pending: ArrayVec<(usize, usize, Option<usize>), MAX_DEPTH> = ArrayVec::new();
     if !items.is_empty() {
-        pending.push((0, items.len(), None));
+        pending.keep((0, items.len(), None));
     }
     while let Some((from, to, parent)) = pending.pop() {
         let here = nodes.items().len();
@@ -80,14 +80,15 @@ pub fn build<S: Scalar>(items: &mut [Item<S>], nodes: &mut impl Store<Node<S>>) 
         let half = range.len() / 2;
         // Twice the centre orders as well as the centre. Equal keys are ordered by index, so that the tree is a function
         // of the boxes alone.
-        let by = |a: S, b: S, i: u32, j: u32| a.partial_cmp(&b).unwrap_or(Ordering::Equal).then(i.cmp(&j));
-        if extent.x >= extent.y {
-            let key = |item: &Item<S>| item.bounds.min.x.clone() + &item.bounds.max.x;
-            range.select_nth_unstable_by(half, |a, b| by(key(a), key(b), a.index, b.index));
-        } else {
-            let key = |item: &Item<S>| item.bounds.min.y.clone() + &item.bounds.max.y;
-            range.select_nth_unstable_by(half, |a, b| by(key(a), key(b), a.index, b.index));
-        }
+        let wide = extent.x >= extent.y;
+        let key = |item: &Item<S>| {
+            let Aabb { min, max } = &item.bounds;
+            if wide { min.x.clone() + &max.x } else { min.y.clone() + &max.y }
+        };
+        select(range, half, |a, b| {
+            let (i, j) = (key(a), key(b));
+            i < j || (i == j && a.index < b.index)
+        });
         let middle = from + half;
         // The left part is placed next (preorder), the right part after all of it.
         if pending.try_push((middle, to, Some(here))).is_err() || pending.try_push((from, middle, None)).is_err() {
@@ -149,7 +150,7 @@ impl<'a, S: Scalar> Hierarchy<'a, S> {
     ) {
         let mut stack: ArrayVec<(u32, S), MAX_DEPTH> = ArrayVec::new();
         if let Some(root) = self.nodes.first() {
-            stack.push((0, root.bounds.distance_sq(p)));
+            stack.keep((0, root.bounds.distance_sq(p)));
         }
         while let Some((mut i, distance_sq)) = stack.pop() {
             if distance_sq >= bound_sq(state) {

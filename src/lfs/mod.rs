@@ -7,6 +7,7 @@
 //! The estimate is exact for M': |lfs'(p) − lfs(p)| is at most the Hausdorff distance of M' and M near p. Like lfs itself
 //! it is 1-Lipschitz. M' may be empty (a lone straight segment): lfs is then infinite.
 
+pub mod compact;
 #[cfg(feature = "kiddo")]
 pub mod kd;
 
@@ -124,6 +125,18 @@ impl<'a, S: Scalar> LfsIndex<'a, S> {
     }
 }
 
+/// The distance that a search for the squared distance finds, where it is known not to exceed `bound` by more than rounding.
+#[inline]
+fn below_bound<S: Scalar>(bound: &S, nearest_sq: impl Fn(S) -> Option<S>) -> S {
+    let everywhere = || nearest_sq(S::infinity()).map_or_else(S::infinity, S::sqrt);
+    if !bound.is_finite() {
+        return everywhere();
+    }
+    // A thousandth more, so that the rounding of the bound does not matter.
+    let limit = bound.clone() * &(S::one() + &S::one().mul_pow2(-10));
+    nearest_sq(limit.square()).map_or_else(everywhere, S::sqrt)
+}
+
 impl<S: Scalar> FeatureSize<S> for LfsIndex<'_, S> {
     #[inline]
     fn lfs(&self, _at: &CurveParam<S>, p: &Point<S>) -> S {
@@ -132,11 +145,6 @@ impl<S: Scalar> FeatureSize<S> for LfsIndex<'_, S> {
 
     #[inline]
     fn lfs_below(&self, _at: &CurveParam<S>, p: &Point<S>, bound: &S) -> S {
-        if !bound.is_finite() {
-            return self.distance(p);
-        }
-        // A thousandth more, so that the rounding of the bound does not matter.
-        let limit = bound.clone() * &(S::one() + &S::one().mul_pow2(-10));
-        self.nearest(p, limit.square()).map_or_else(|| self.distance(p), |n| n.distance_sq.sqrt())
+        below_bound(bound, |limit| self.nearest(p, limit).map(|n| n.distance_sq))
     }
 }

@@ -16,6 +16,7 @@
 use super::foot::Foot;
 use super::pencil::{Pencil, Values};
 use crate::bezier::newton::falling_zero;
+use crate::buffer::Keep;
 use crate::curve::{Arc, Curve, CurveParam, Segment};
 use crate::geometry::{Aabb, Point, Vector};
 use crate::scalar::Scalar;
@@ -117,7 +118,11 @@ impl<S: Scalar> Guard<S> {
             &disk.centre,
             self,
             |g, bounds| g.valid && bounds.distance_sq(&g.centre) <= reach_sq,
-            |g, arc, bounds| g.valid &= g.arcs.try_push((arc, bounds.clone())).is_ok(),
+            |g, leaf, bounds| {
+                for (arc, _) in curve.arcs_in(leaf) {
+                    g.valid &= g.arcs.try_push((arc, bounds.clone())).is_ok();
+                }
+            },
         );
     }
 }
@@ -206,7 +211,11 @@ impl<'f, S: Scalar> Search<'f, S> {
             &foot.point,
             self,
             |s, bounds| s.smallest.meets(bounds, curve.noise),
-            |s, arc, _| s.visit(curve, arc),
+            |s, leaf, _| {
+                for (arc, _) in curve.arcs_in(leaf) {
+                    s.visit(curve, arc);
+                }
+            },
         );
     }
 
@@ -256,12 +265,11 @@ impl<S: Scalar> Smallest<'_, S> {
     fn search_arc(&mut self, pencil: &Pencil<S>, segment: &Segment<S>, arc: &Arc<S>, index: u32) {
         let span = Span { pencil, arc, index };
         let moving = arc.moving(segment);
-        let ends = [0, 1].map(|i| Place::new(pencil, moving[i].clone() - &pencil.shift));
-        for i in 0..2 {
-            self.offer(&ends[i].values, &span, &moving[i]);
+        let ends = moving.clone().map(|t| Place::new(pencil, t - &pencil.shift));
+        for ((end, from), t) in ends.iter().zip(&moving).zip(&arc.span) {
+            self.offer(&end.values, &span, from);
             // Seen from the retracted end itself the quotient has its largest values beside it, and none at the end.
-            if moving[i] != arc.span[i] {
-                let t = &arc.span[i];
+            if from != t {
                 self.offer(&pencil.at(&(t.clone() - &pencil.shift)), &span, t);
             }
         }
@@ -280,7 +288,7 @@ impl<S: Scalar> Smallest<'_, S> {
         let least = self.slack.clone() * &(end.v.clone() - &start.v);
         let mut left = start;
         let mut rights: ArrayVec<Place<S>, DEPTH> = ArrayVec::new();
-        rights.push(end);
+        rights.keep(end);
         for _ in 0..PIECES {
             let Some(right) = rights.last() else { return };
             let length = right.v.clone() - &left.v;

@@ -12,4 +12,4 @@ pub mod walk;
 
 pub use disk::{Guard, TangentDisk, tangent_disk, tangent_disk_beside};
 pub use foot::{Foot, Side};
-pub use walk::{MedialPoint, Resolution, walk};
+pub use walk::{MedialPoint, Resolution, walk, walk_uniform};

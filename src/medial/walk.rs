@@ -24,7 +24,7 @@
 
 use super::disk::{Guard, TangentDisk, Touch, tangent_disk, tangent_disk_beside};
 use super::foot::{Foot, Side};
-use crate::buffer::{BufferFull, Store};
+use crate::buffer::{BufferFull, Keep, Sink};
 use crate::curve::contact::{Contact, reach};
 use crate::curve::joint::clockwise_rank;
 use crate::curve::nearest::{Locality, nearest_beside, nearest_on_arc};
@@ -87,26 +87,66 @@ pub fn walk<S: Scalar>(
     contacts: &[Contact<S>],
     relevance: &S,
     polyline: u32,
-    out: &mut impl Store<MedialPoint<S>>,
+    out: &mut impl Sink<MedialPoint<S>>,
 ) -> Result<u32, BufferFull> {
-    let Some(path) = curve.paths.get(path as usize) else { return Ok(polyline) };
-    let mut walker = Walker::new(curve, resolution, contacts, relevance, polyline, out);
-    let last = path.first + path.count - 1;
-    for segment in path.first..=last {
-        walker.side(segment, Side::Left)?;
-        let next = if segment < last { Some(segment + 1) } else { path.closed.then_some(path.first) };
-        walker.turn(EndId::new(segment, 1), next.map(|n| EndId::new(n, 0)))?;
+    match resolution {
+        Resolution::Steps(n) => walk_uniform(curve, path, *n, contacts, relevance, polyline, out),
+        Resolution::Tolerance(t) => Walker::new(curve, Within(t), contacts, relevance, polyline, out).path(path),
     }
-    if path.closed {
-        walker.break_line();
+}
+
+/// [`walk`] with [`Resolution::Steps`] alone: a program for a chip need not link the refinement.
+///
+/// # Errors
+/// [`BufferFull`] where `out` cannot take more.
+pub fn walk_uniform<S: Scalar>(
+    curve: &Curve<'_, S>,
+    path: u32,
+    steps: u32,
+    contacts: &[Contact<S>],
+    relevance: &S,
+    polyline: u32,
+    out: &mut impl Sink<MedialPoint<S>>,
+) -> Result<u32, BufferFull> {
+    Walker::new(curve, Uniform(steps), contacts, relevance, polyline, out).path(path)
+}
+
+/// A [`Resolution`] that is known when the program is built.
+trait Fineness<S> {
+    /// The tolerance, where there is one.
+    fn tolerance(&self) -> Option<&S>;
+    /// Parameter steps a segment; for fans where there is a tolerance nothing.
+    fn steps(&self) -> u32;
+}
+
+#[derive(Clone, Copy)]
+struct Uniform(u32);
+
+#[derive(Clone, Copy)]
+struct Within<'r, S>(&'r S);
+
+impl<S> Fineness<S> for Uniform {
+    #[inline]
+    fn tolerance(&self) -> Option<&S> {
+        None
     }
-    for segment in (path.first..=last).rev() {
-        walker.side(segment, Side::Right)?;
-        let next = if segment > path.first { Some(segment - 1) } else { path.closed.then_some(last) };
-        walker.turn(EndId::new(segment, 0), next.map(|n| EndId::new(n, 1)))?;
+
+    #[inline]
+    fn steps(&self) -> u32 {
+        self.0
     }
-    walker.break_line();
-    Ok(walker.polyline)
+}
+
+impl<S> Fineness<S> for Within<'_, S> {
+    #[inline]
+    fn tolerance(&self) -> Option<&S> {
+        Some(self.0)
+    }
+
+    #[inline]
+    fn steps(&self) -> u32 {
+        1
+    }
 }
 
 /// An upper bound of lfs over all of C: lfs is 1-Lipschitz, and at a foot it is at most the radius of either disk there.
@@ -161,9 +201,9 @@ const DEPTH: usize = 56;
 /// its length, since it turns by at most 30°.
 const COINCIDING: i32 = 64;
 
-struct Walker<'w, 'c, S, Out> {
+struct Walker<'w, 'c, S, R, Out> {
     curve: &'w Curve<'c, S>,
-    resolution: &'w Resolution<S>,
+    resolution: R,
     contacts: &'w [Contact<S>],
     relevance: &'w S,
     polyline: u32,
@@ -177,10 +217,10 @@ struct Walker<'w, 'c, S, Out> {
     out: &'w mut Out,
 }
 
-impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
+impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walker<'w, 'c, S, R, Out> {
     fn new(
         curve: &'w Curve<'c, S>,
-        resolution: &'w Resolution<S>,
+        resolution: R,
         contacts: &'w [Contact<S>],
         relevance: &'w S,
         polyline: u32,
@@ -202,6 +242,27 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         }
     }
 
+    /// All of one path; the number after its last polyline.
+    fn path(mut self, path: u32) -> Result<u32, BufferFull> {
+        let Some(path) = self.curve.paths.get(path as usize) else { return Ok(self.polyline) };
+        let last = path.first + path.count - 1;
+        for segment in path.first..=last {
+            self.side(segment, Side::Left)?;
+            let next = if segment < last { Some(segment + 1) } else { path.closed.then_some(path.first) };
+            self.turn(EndId::new(segment, 1), next.map(|n| EndId::new(n, 0)))?;
+        }
+        if path.closed {
+            self.break_line();
+        }
+        for segment in (path.first..=last).rev() {
+            self.side(segment, Side::Right)?;
+            let next = if segment > path.first { Some(segment - 1) } else { path.closed.then_some(last) };
+            self.turn(EndId::new(segment, 0), next.map(|n| EndId::new(n, 1)))?;
+        }
+        self.break_line();
+        Ok(self.polyline)
+    }
+
     /// Ends the current polyline.
     fn break_line(&mut self) {
         if self.started {
@@ -217,7 +278,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
             return Ok(());
         }
         self.started = true;
-        self.out.push(MedialPoint {
+        self.out.take(MedialPoint {
             at: s.at.clone(),
             foot: s.foot.clone(),
             side: s.side,
@@ -348,9 +409,10 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
 
     /// Emits everything after `from` up to and including `to`, which lie on one arc; gives back `to`.
     fn cell(&mut self, from: Station<S>, to: Station<S>, arc: &Arc<S>, side: Side) -> Result<Station<S>, BufferFull> {
-        match self.resolution {
-            Resolution::Steps(n) => self.uniform_cell(from, to, *n, side),
-            Resolution::Tolerance(tolerance) => self.adaptive_cell(from, to, arc, side, tolerance),
+        let resolution = self.resolution.clone();
+        match resolution.tolerance() {
+            None => self.uniform_cell(from, to, resolution.steps(), side),
+            Some(tolerance) => self.adaptive_cell(from, to, arc, side, tolerance),
         }
     }
 
@@ -403,7 +465,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     ) -> Result<Station<S>, BufferFull> {
         let mut here = from;
         let mut pending: ArrayVec<Pending<S>, DEPTH> = ArrayVec::new();
-        pending.push(Pending { station: to, clear: false });
+        pending.keep(Pending { station: to, clear: false });
         while let Some(mut top) = pending.pop() {
             let length = here.foot.distance(&top.station.foot);
             let (low, high) = if here.at.t < top.station.at.t {
@@ -431,7 +493,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
                         && !self.between_two(arc, side, [&here, &middle, &top.station], tolerance)
                     {
                         let clear = top.clear;
-                        pending.push(top);
+                        pending.keep(top);
                         if pending.try_push(Pending { station: middle, clear }).is_ok() {
                             continue;
                         }
@@ -452,7 +514,7 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
     fn clear(&self, arc: &Arc<S>, at: &CurveParam<S>, side: Side, length: &S) -> bool {
         let Some(segment) = self.curve.segment(at.segment) else { return true };
         let mut strokes = Strokes::new();
-        strokes.push(Locality::on_arc(segment, arc, &at.t));
+        strokes.keep(Locality::on_arc(segment, arc, &at.t));
         self.alone(arc, None, &segment.point(&at.t), side, length, strokes)
     }
 
@@ -559,8 +621,8 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         }
         let Some(other) = Locality::of(self.curve, &touch.at) else { return false };
         let mut strokes = Strokes::new();
-        strokes.push(own);
-        strokes.push(other);
+        strokes.keep(own);
+        strokes.keep(other);
         // Every disk of the cell lies within this distance of its middle.
         let reach = a.foot.distance(&b.foot) + &(ra.clone().max(rm.clone()).max(rb.clone()) * &S::int(3));
         self.alone(arc, Some(facing), &m.foot, side, &reach, strokes)
@@ -659,25 +721,25 @@ impl<'w, 'c, S: Scalar, Out: Store<MedialPoint<S>>> Walker<'w, 'c, S, Out> {
         for to in [middle, last] {
             let Some(to) = self.fan_station(end, to) else { continue };
             let mut pending: ArrayVec<Station<S>, DEPTH> = ArrayVec::new();
-            pending.push(to);
+            pending.keep(to);
             while let Some(top) = pending.pop() {
                 let spread = here.direction.minus(&top.direction).norm();
                 let middle = here.direction.plus(&top.direction).unit().filter(|_| !pending.is_full());
                 if let Some(m) = middle.and_then(|d| self.fan_station(end, d)) {
-                    let split = match self.resolution {
-                        Resolution::Steps(n) => {
-                            let steps = S::int(i32::try_from((*n).clamp(16, 1 << 20)).unwrap_or(16));
-                            spread * &steps > S::int(16)
+                    let split = match self.resolution.tolerance() {
+                        None => {
+                            let steps = i32::try_from(self.resolution.steps().clamp(16, 1 << 20)).unwrap_or(16);
+                            spread * &S::int(steps) > S::int(16)
                         }
-                        Resolution::Tolerance(tolerance) => {
+                        Some(tolerance) => {
                             let narrow = spread <= S::unit_roundoff().mul_pow2(8);
                             let quarter = S::one().mul_pow2(-2);
                             !narrow && (spread > quarter || self.rough(&here, &m, &top, tolerance))
                         }
                     };
                     if split && pending.remaining_capacity() >= 2 {
-                        pending.push(top);
-                        pending.push(m);
+                        pending.keep(top);
+                        pending.keep(m);
                         continue;
                     }
                     self.emit(&m)?;

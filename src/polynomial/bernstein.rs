@@ -12,6 +12,7 @@
 //! covers a rounding of every input coefficient, since p is taken to be known no better.
 
 use super::Polynomial;
+use super::eval::descend;
 use crate::scalar::Scalar;
 use core::array::from_fn;
 
@@ -70,10 +71,7 @@ const fn factors<const N: usize>() -> [i32; N] {
 pub(crate) fn on_unit<S: Scalar, const N: usize>(q: &[S; N]) -> [S; N] {
     let mut b: [S; N] = from_fn(|j| q[j].clone() * &S::int(Binomials::<N>::FACTORS[j]));
     for done in 1..N {
-        for i in (done..N).rev() {
-            let sum = b[i].clone() + &b[i - 1];
-            b[i] = sum;
-        }
+        descend(&mut b, done - 1, |upper, lower| *upper = upper.clone() + &*lower);
     }
     b
 }

@@ -4,6 +4,18 @@ use super::Polynomial;
 use crate::scalar::Scalar;
 use core::array::from_fn;
 
+/// Calls `combine` with each two neighbours of c[from..], the upper one first, from the top down. Written without indices:
+/// a compiler that goes for size keeps their checks, and with them a panic.
+#[inline]
+pub(super) fn descend<S, const N: usize>(c: &mut [S; N], from: usize, mut combine: impl FnMut(&mut S, &mut S)) {
+    let mut coefficients = c.iter_mut().skip(from).rev();
+    let Some(mut upper) = coefficients.next() else { return };
+    for lower in coefficients {
+        combine(upper, lower);
+        upper = lower;
+    }
+}
+
 impl<S: Scalar, const N: usize> Polynomial<S, N> {
     /// The polynomial with these coefficients, ascending powers.
     #[inline]
@@ -49,10 +61,7 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     pub fn taylor(&self, x: &S) -> Self {
         let mut c = self.coefficients.clone();
         for done in 0..N {
-            for j in (done + 1..N).rev() {
-                let carry = c[j].clone() * x;
-                c[j - 1] = carry + &c[j - 1];
-            }
+            descend(&mut c, done, |upper, lower| *lower = upper.clone() * x + &*lower);
         }
         Self::new(c)
     }

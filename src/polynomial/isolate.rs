@@ -15,6 +15,7 @@
 
 use super::Polynomial;
 use super::bernstein::{self, Piece, Signs};
+use crate::buffer::Keep;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -172,7 +173,7 @@ pub(super) fn isolate<S: Scalar, const N: usize>(p: &Polynomial<S, N>, first: Pi
                 }
                 match piece.halves() {
                     Ok((left, right)) => {
-                        pending.push(right);
+                        pending.keep(right);
                         current = Some(left);
                     }
                     Err(piece) => record.cluster(piece.lo, piece.hi, 0, 0, 0),

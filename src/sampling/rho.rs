@@ -9,6 +9,7 @@
 
 use super::run::{Pos, Run};
 use super::size::Sizes;
+use crate::buffer::Keep;
 use crate::lfs::FeatureSize;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -74,7 +75,7 @@ fn least_size<S: Scalar, F: FeatureSize<S>>(
     let mut least = here.2.clone().min(end.2.clone());
     let mut floored = here.3 || end.3;
     let mut pending = ArrayVec::<_, 24>::new();
-    pending.push(end);
+    pending.keep(end);
     while let Some(top) = pending.pop() {
         // Between two looks the size falls at most like its Lipschitz bound allows. Arcs of samples are nearly straight:
         // 5/4 of the chord bounds the length of the stretch.
@@ -90,8 +91,8 @@ fn least_size<S: Scalar, F: FeatureSize<S>>(
         let middle = look(&run.between(&here.0, &top.0, &S::one().half()));
         floored |= middle.3;
         least = least.min(middle.2.clone());
-        pending.push(top);
-        pending.push(middle);
+        pending.keep(top);
+        pending.keep(middle);
     }
     (least, floored)
 }

@@ -58,7 +58,7 @@ impl<S: Scalar> Run<'_, S> {
     #[inline]
     pub fn segment_index(&self, k: u32) -> u32 {
         let n = self.first + k;
-        let n = if n >= self.path.count { n % self.path.count } else { n };
+        let n = if n >= self.path.count { self.path.around(n) } else { n };
         self.path.first + n
     }
 

@@ -143,7 +143,7 @@ impl<'c, S: Scalar> Legs<'c, S> {
             let count = path.count;
             let total = S::int(i32::try_from(count).unwrap_or(i32::MAX)) * start;
             let begin = whole_part(&total, count);
-            if let Some(corner) = (0..count).map(|n| (begin + n) % count).find(|&k| legs.corner_at(k)) {
+            if let Some(corner) = (0..count).map(|n| path.around(begin + n)).find(|&k| legs.corner_at(k)) {
                 legs.first = corner;
             } else {
                 let t = (total - &S::int(i32::try_from(begin).unwrap_or(0))).clamp(S::zero(), S::one());
@@ -156,7 +156,7 @@ impl<'c, S: Scalar> Legs<'c, S> {
 
     /// The joint before segment k of the path is a corner.
     fn corner_at(&self, k: u32) -> bool {
-        self.curve.segment(self.path.first + k % self.path.count).is_some_and(|s| s.end(0).kind == JointKind::Corner)
+        self.curve.segment(self.path.first + self.path.around(k)).is_some_and(|s| s.end(0).kind == JointKind::Corner)
     }
 
     /// The run from the start of segment `from` to the start of segment `to` (or the end of the path).
@@ -188,7 +188,7 @@ impl<'c, S: Scalar> Legs<'c, S> {
     }
 
     fn ending(&self, k: u32, side: usize) -> RunEnd {
-        let end = self.curve.segment(self.path.first + k % self.path.count).map(|s| s.end(side));
+        let end = self.curve.segment(self.path.first + self.path.around(k)).map(|s| s.end(side));
         match end {
             Some(e) if e.kind == JointKind::Corner || e.retracted => RunEnd::Singular,
             _ => RunEnd::Open,
@@ -218,7 +218,9 @@ impl<'c, S: Scalar> Iterator for Legs<'c, S> {
             return match (self.path.closed, self.from) {
                 _ if count == 0 => None,
                 (_, 0) => Some(Leg::Fixed(self.place(self.first, 0), Bound::Start)),
-                (true, k) => (k < count).then(|| Leg::Fixed(self.place((self.first + k) % count, 0), Bound::Corner)),
+                (true, k) => {
+                    (k < count).then(|| Leg::Fixed(self.place(self.path.around(self.first + k), 0), Bound::Corner))
+                }
                 (false, k) => {
                     Some(Leg::Fixed(self.place(k - 1, 1), if k == count { Bound::End } else { Bound::Corner }))
                 }
@@ -233,7 +235,7 @@ impl<'c, S: Scalar> Iterator for Legs<'c, S> {
             self.from = count;
             return Some(Leg::Run(self.round(t)));
         }
-        let to = (from + 1..count).find(|&k| self.corner_at((self.first + k) % count)).unwrap_or(count);
+        let to = (from + 1..count).find(|&k| self.corner_at(self.first + k)).unwrap_or(count);
         self.from = to;
         Some(Leg::Run(self.run(from, to)))
     }

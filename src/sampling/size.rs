@@ -18,7 +18,7 @@ use crate::geometry::Point;
 use crate::lfs::FeatureSize;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
-use core::cell::RefCell;
+use core::cell::{Cell, RefCell};
 
 /// A size and where it comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,16 +47,18 @@ impl<S> Default for Stretches<S> {
 impl<S: Scalar> Stretches<S> {
     /// Whether a singular point lies on the stretch around p, if that is known.
     fn recall(&self, p: &Pos<S>) -> Option<bool> {
-        self.known.borrow().iter().find(|(from, to, _)| p >= from && p <= to).map(|s| s.2)
+        self.known.try_borrow().ok()?.iter().find(|(from, to, _)| p >= from && p <= to).map(|s| s.2)
     }
 
     /// Remembers an interval, in place of the oldest where there is no room.
     fn remember(&self, stretch: Stretch<S>) {
-        let mut known = self.known.borrow_mut();
-        if known.is_full() {
-            known.remove(0);
+        // Nothing is borrowed when this is called, and there is room: neither can fail, and neither links a panic.
+        if let Ok(mut known) = self.known.try_borrow_mut() {
+            if known.is_full() {
+                known.pop_at(0);
+            }
+            let _ = known.try_push(stretch);
         }
-        known.push(stretch);
     }
 }
 
@@ -72,7 +74,7 @@ pub struct Sizes<'r, S, F> {
     certain: S,
     stretches: &'r Stretches<S>,
     /// The last point looked at, and its lfs: a bound for the next.
-    last: RefCell<Option<(Point<S>, S)>>,
+    last: Cell<Option<(Point<S>, S)>>,
 }
 
 impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
@@ -91,12 +93,12 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
             }
             Condition::Unbounded => (None, S::one()),
         };
-        Self { run, features, contacts, options, factor, certain, stretches, last: RefCell::new(None) }
+        Self { run, features, contacts, options, factor, certain, stretches, last: Cell::new(None) }
     }
 
     /// Goes on from the last look-up of other sizes along the same run: later look-ups are faster, not different.
     pub fn resume(&self, last: Option<(Point<S>, S)>) {
-        *self.last.borrow_mut() = last;
+        self.last.set(last);
     }
 
     /// The last point that was looked at, and its lfs, for [`Self::resume`].
@@ -112,12 +114,11 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
     /// lfs as given.
     pub fn lfs(&self, p: &Pos<S>, point: &Point<S>) -> S {
         let place = self.run.place(p);
-        let mut last = self.last.borrow_mut();
-        let lfs = match &*last {
-            Some((q, lfs)) => self.features.lfs_below(&place, point, &(q.distance(point) + lfs)),
+        let lfs = match self.last.take() {
+            Some((q, lfs)) => self.features.lfs_below(&place, point, &(q.distance(point) + &lfs)),
             None => self.features.lfs(&place, point),
         };
-        *last = Some((point.clone(), lfs.clone()));
+        self.last.set(Some((point.clone(), lfs.clone())));
         lfs
     }
 

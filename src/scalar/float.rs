@@ -63,6 +63,13 @@ macro_rules! machine_float {
             fn to_f64(&self) -> f64 {
                 f64::from(*self)
             }
+
+            // Of its own for `f32`, so that a chip without double precision links none.
+            #[inline]
+            #[allow(clippy::cast_possible_truncation, reason = "a saturating cast is meant")]
+            fn to_i64(&self) -> i64 {
+                *self as i64
+            }
         }
     };
 }

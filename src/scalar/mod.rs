@@ -101,6 +101,12 @@ pub trait Scalar: Field + PartialOrd {
     /// The nearest double.
     fn to_f64(&self) -> f64;
 
+    /// Towards zero to an integer, saturating.
+    #[allow(clippy::cast_possible_truncation, reason = "a saturating cast is meant")]
+    fn to_i64(&self) -> i64 {
+        self.to_f64() as i64
+    }
+
     /// A value inside [a, b], near its middle.
     #[inline]
     fn midpoint(a: &Self, b: &Self) -> Self {

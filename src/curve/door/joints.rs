@@ -8,6 +8,7 @@ use crate::buffer::Store;
 use crate::curve::joint;
 use crate::curve::{EndId, JointEnd, JointKind, Path, Segment};
 use crate::geometry::{Point, Vector};
+use crate::order::sort;
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
 
@@ -31,7 +32,9 @@ impl<S: Scalar> Door<'_, S> {
         };
         let short = self.short();
         let cell_of = |p: &Point<S>| {
-            let cell = |v: &S| grid_index(&(v.clone() / &short));
+            // Truncation makes one cell around zero twice as wide; neighbours are still neighbours. Coordinates beyond 2^63
+            // cells share a cell.
+            let cell = |v: &S| (v.clone() / &short).to_i64();
             (cell(&p.x), cell(&p.y))
         };
         order.shorten(0);
@@ -46,7 +49,7 @@ impl<S: Scalar> Door<'_, S> {
             view.get(e.segment() as usize).map(|s| s.end_point(e.side()).clone())
         };
         let key = |i: u32| point(i).map_or((i64::MAX, i64::MAX, i), |p| (cell_of(&p).0, cell_of(&p).1, i));
-        order.items_mut().sort_unstable_by_key(|&i| key(i));
+        sort(order.items_mut(), |&i, &j| key(i) < key(j));
         for n in 0..order.items().len() {
             let Some(&i) = order.items().get(n) else { break };
             let (Some(e), Some(p)) = (ends(i), segments_point(segments, ends(i))) else { continue };
@@ -141,16 +144,6 @@ impl<S: Scalar> Door<'_, S> {
             }
         }
     }
-}
-
-/// A grid coordinate; far outside of any grid for numbers that no grid holds.
-#[allow(
-    clippy::cast_possible_truncation,
-    reason = "a saturating cast is meant: coordinates beyond 2^63 cells share a cell"
-)]
-fn grid_index<S: Scalar>(v: &S) -> i64 {
-    // Truncation makes one cell around zero twice as wide; neighbours are still neighbours.
-    v.to_f64() as i64
 }
 
 /// The segment that stands for a twin, and the end of it.

@@ -47,6 +47,8 @@ pub struct DoorOptions<S> {
     pub short: S,
     /// A joint whose smoothing would displace the curve by more stays a corner (1e-4).
     pub displacement: S,
+    /// Consecutive arcs that share a leaf of the hierarchy (1). More need less memory for nodes and more time.
+    pub leaf: u32,
 }
 
 impl<S: Scalar> Default for DoorOptions<S> {
@@ -56,6 +58,7 @@ impl<S: Scalar> Default for DoorOptions<S> {
             corner_sine: sine_of_degrees(&S::one()),
             short: S::int(2) / &S::int(1_000_000),
             displacement: S::one() / &S::int(10_000),
+            leaf: 1,
         }
     }
 }
@@ -176,9 +179,9 @@ pub struct CurveBuffers<Segments, Paths, Arcs, Nodes, Items, Order> {
     pub paths: Paths,
     /// About 4 to 12 entries a segment, as it bends.
     pub arcs: Arcs,
-    /// Two entries an arc.
+    /// Two entries a leaf, that is, an arc ([`DoorOptions::leaf`]).
     pub nodes: Nodes,
-    /// Scratch, one entry an arc.
+    /// Scratch, one entry a leaf.
     pub items: Items,
     /// Scratch, one entry a segment or two a path, whichever is more.
     pub order: Order,
@@ -191,6 +194,8 @@ pub struct Entered<S> {
     pub diagonal: S,
     /// See [`Curve::noise`].
     pub noise: S,
+    /// See [`Curve::leaf`].
+    pub leaf: u32,
     /// What was changed.
     pub report: DoorReport<S>,
 }
@@ -253,13 +258,18 @@ where
         s.arcs = (index_of(first), index_of(arcs.items().len() - first));
     }
     strands::number(segments, arcs.items_mut());
-    for (i, a) in arcs.items().iter().enumerate() {
-        if let Some(s) = segments.get(a.segment as usize) {
-            items.push(Item { bounds: a.bounds(s), index: index_of(i) })?;
+    let leaf = options.leaf.max(1);
+    for (i, chunk) in arcs.items().chunks(leaf as usize).enumerate() {
+        let mut bounds = Aabb::empty();
+        for arc in chunk {
+            if let Some(s) = segments.get(arc.segment as usize) {
+                bounds.merge(&arc.bounds(s));
+            }
         }
+        items.push(Item { bounds, index: index_of(i) })?;
     }
     hierarchy::build(items.items_mut(), nodes)?;
-    Ok(Entered { diagonal, noise, report })
+    Ok(Entered { diagonal, noise, leaf, report })
 }
 
 /// An index below 2^31 as u32; larger counts were refused before.
@@ -358,6 +368,7 @@ impl<Sg, Pa, Ar, No, It, Or> CurveBuffers<Sg, Pa, Ar, No, It, Or> {
             paths: self.paths.items(),
             arcs: self.arcs.items(),
             nodes: self.nodes.items(),
+            leaf: entered.leaf,
             diagonal: &entered.diagonal,
             noise: &entered.noise,
         }

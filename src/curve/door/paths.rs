@@ -268,11 +268,10 @@ fn turning_points<S: Scalar>(x: &[S; 4]) -> ArrayVec<S, 2> {
     let (d0, d1, d2) = (x1.clone() - x0, x2.clone() - x1, x3.clone() - x2);
     let speed = Polynomial::new([d0.clone(), (d1.clone() - &d0).twice(), d2 - &d1.twice() + &d0]);
     let mut turns = ArrayVec::new();
-    let roots = speed.roots_in_unit().unwrap_or_default();
+    let roots: ArrayVec<S, 2> = critical::roots(speed.coefficients.clone());
     let mut before = S::zero();
-    for (i, root) in roots.iter().enumerate() {
-        let t = &root.value;
-        let after = roots.get(i + 1).map_or_else(S::one, |r| r.value.clone());
+    for (i, t) in roots.iter().enumerate() {
+        let after = roots.get(i + 1).cloned().unwrap_or_else(S::one);
         let (left, right) = (S::midpoint(&before, t), S::midpoint(t, &after));
         before = t.clone();
         let turns_back = (speed.eval(&left) > S::zero()) != (speed.eval(&right) > S::zero());

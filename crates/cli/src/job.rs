@@ -6,10 +6,11 @@
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::door::DoorOptions;
-use feature_sampling::geometry::Point;
-use feature_sampling::medial::Resolution;
-use feature_sampling::model::{CurveModel, MedialModel};
-use fsample_job::{Encoder, JobError, JobOptions};
+use feature_sampling::geometry::{Aabb, Point};
+use feature_sampling::lfs::compact::{Block, Blocks, CompactIndex};
+use feature_sampling::medial;
+use feature_sampling::model::CurveModel;
+use fsample_job::{Encoder, JobError, JobOptions, LEAF};
 use lineart::drawing::Drawing;
 
 use crate::engine::{Bounds, Density, Engine};
@@ -99,17 +100,30 @@ fn excess(
     floor: f64,
 ) -> Result<f64, Failure> {
     let input: Vec<(bool, &[Cubic<f32>])> = paths.iter().map(|(closed, cubics)| (*closed, cubics.as_slice())).collect();
-    let model = CurveModel::<f32>::new(&input, &DoorOptions::default())
-        .map_err(|error| Failure::input(&drawing.source, error))?;
-    let medial = MedialModel::new(&model, &Resolution::Steps(foot_points));
+    // As on the chip: the same leaves, the same blocks.
+    let door = DoorOptions { leaf: LEAF, ..DoorOptions::default() };
+    let model = CurveModel::<f32>::new(&input, &door).map_err(|error| Failure::input(&drawing.source, error))?;
+    let curve = model.curve();
+    let mut slots = vec![Block::default(); 1 << 16];
+    let mut blocks = Blocks::new(&mut slots, rounded(floor));
+    let relevance = medial::walk::relevance(&curve);
+    let full = |_| Failure::limit(format!("{}: more medial points than a job may have", shown(&drawing.source)));
+    let mut line = 0;
+    for (path, _) in (0..).zip(curve.paths) {
+        line = medial::walk_uniform(&curve, path, foot_points, model.contacts(), &relevance, line, &mut blocks)
+            .map_err(full)?;
+    }
+    let blocks = blocks.finish().map_err(full)?;
+    let mut boxes = vec![Aabb::default(); blocks.len()];
+    let index = CompactIndex::build(blocks, &mut boxes).map_err(full)?;
     let mut most = 0.0_f64;
     let looks = LOOKS * foot_points;
-    for segment in model.curve().segments {
+    for segment in curve.segments {
         for k in 0..=looks {
             let p = segment.power.eval(&rounded(f64::from(k) / f64::from(looks)));
             let truth = engine.lfs(&Point::new(f64::from(p.x), f64::from(p.y)));
             if truth > floor && truth.is_finite() {
-                most = most.max(f64::from(medial.lfs(&p)) / truth - 1.0);
+                most = most.max(f64::from(index.distance(&p)) / truth - 1.0);
             }
         }
     }

@@ -28,6 +28,10 @@ pub const MAGIC: [u8; 4] = *b"FSJ1";
 /// Largest coordinate and length, in user units; more is refused, so that products of lengths stay in binary32's range.
 pub const LARGEST: f32 = 1.0e5;
 
+/// Arcs that share a leaf of the curve's hierarchy on the chip. The host measures η with the same number: another one can
+/// change the last bits of a radius.
+pub const LEAF: u32 = 8;
+
 /// What a job asks of the controller. Lengths in user units, times in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JobOptions {
@@ -95,6 +99,24 @@ pub enum JobError {
     Refused,
     /// The encoder's buffer is full.
     Full,
+}
+
+impl JobError {
+    /// The error in one byte, for a report over a serial line.
+    #[must_use]
+    pub const fn code(&self) -> u8 {
+        match self {
+            Self::Magic => 1,
+            Self::Unknown(_) => 2,
+            Self::Range => 3,
+            Self::Order => 4,
+            Self::Checksum => 5,
+            Self::AfterEnd => 6,
+            Self::Truncated => 7,
+            Self::Refused => 8,
+            Self::Full => 9,
+        }
+    }
 }
 
 impl fmt::Display for JobError {
@@ -307,6 +329,12 @@ impl Decoder {
 }
 
 impl JobOptions {
+    /// Radii of medial points below which their places need not be kept better: where ε·lfs is below d_min anyway.
+    #[must_use]
+    pub fn resolution(&self) -> f32 {
+        self.min_distance / self.epsilon
+    }
+
     /// Checks every number against its range.
     ///
     /// # Errors

@@ -1,79 +1,47 @@
-//! The controller on a Cortex-M: start-up, memory, and a semihosting channel in place of a serial line.
+//! The controller on a Cortex-M in QEMU: a semihosting channel stands in for the serial line and for the pen.
 //!
-//! The image reads `job.fsj` from the debugger's folder and writes one line a sample, all numbers as bits in hexadecimal.
+//! It runs `job0.fsj`, `job1.fsj` and so on from the debugger's folder, until there is none. It prints a line a sample, all
+//! numbers as bits in hexadecimal; after each job a line of totals, or of the fault. The steps of the motors go to
+//! `pen0.bin` and so on: a word a step, times 16 the ticks since the step before, plus 1, 2, 4, 8 for +x, −x, +y, −y; the
+//! words 0 and 1 lift and lower the pen.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(not(target_os = "none"))]
 fn main() {}
 
 #[cfg(target_os = "none")]
-mod chip {
-    use core::arch::{asm, global_asm};
-    use core::mem::MaybeUninit;
-    use feature_sampling::sampling::Sample;
-    use plotter::*;
+#[path = "../board.rs"]
+mod board;
 
-    // Stack pointer and reset vector; the other exceptions stop in one place.
-    global_asm!(
-        ".section .vectors, \"a\"",
-        ".word _stack_top",
-        ".word reset + 1",
-        ".rept 14",
-        ".word hang + 1",
-        ".endr",
-        ".text",
-        ".thumb_func",
-        ".global reset",
-        "reset:",
-        // The floating-point unit is switched on: full access to coprocessors 10 and 11.
-        "ldr r0, =0xE000ED88",
-        "ldr r1, [r0]",
-        "ldr r2, =0x00F00000",
-        "orrs r1, r2",
-        "str r1, [r0]",
-        "dsb",
-        "isb",
-        "bl start",
-        ".thumb_func",
-        "hang:",
-        "b hang",
-    );
+#[cfg(target_os = "none")]
+mod chip {
+    use super::board;
+    use core::arch::asm;
+    use feature_sampling::sampling::Sample;
+    use fsample_planner::MotorStep;
+    use plotter::*;
 
     /// One call of the debugger.
     fn semihost(operation: u32, argument: usize) -> usize {
         let mut answer = operation as usize;
-        // SAFETY: the breakpoint 0xAB hands r0 and r1 to the debugger, which reads what r1 points to.
+        // SAFETY: the breakpoint 0xAB hands r0 and r1 to the debugger, which reads and writes what r1 points to.
         unsafe { asm!("bkpt 0xAB", inout("r0") answer, in("r1") argument) };
         answer
     }
 
-    fn write(text: &[u8]) {
-        // SYS_WRITE to the console that is open as file 1.
-        let block = [unsafe { CONSOLE }, text.as_ptr() as usize, text.len()];
-        semihost(5, block.as_ptr() as usize);
+    /// SYS_OPEN; all ones where there is no such file. `mode` is that of C's fopen by its number: 1 rb, 4 w, 5 wb.
+    fn open(name: &[u8], mode: usize) -> usize {
+        let block = [name.as_ptr() as usize, mode, name.len() - 1];
+        semihost(1, block.as_ptr() as usize)
     }
 
-    static mut CONSOLE: usize = 0;
+    fn close(file: usize) {
+        semihost(2, (&raw const file) as usize);
+    }
 
-    fn line(tag: u8, numbers: &[u32]) {
-        let mut text = [b' '; 96];
-        let mut slots = text.iter_mut();
-        let mut put = |c: u8| {
-            if let Some(slot) = slots.next() {
-                *slot = c;
-            }
-        };
-        put(tag);
-        for n in numbers {
-            put(b' ');
-            for digit in (0..8).rev() {
-                let d = (n >> (4 * digit) & 15) as u8;
-                put(if d < 10 { b'0' + d } else { b'a' + d - 10 });
-            }
-        }
-        put(b'\n');
-        let used = 2 + 9 * numbers.len();
-        write(text.get(..used).unwrap_or_default());
+    fn write(file: usize, data: *const u8, len: usize) {
+        let block = [file, data as usize, len];
+        semihost(5, block.as_ptr() as usize);
     }
 
     /// SysTick counts down in 24 bits; QEMU's `-icount` makes it a count of instructions.
@@ -84,33 +52,83 @@ mod chip {
         unsafe { SYSTICK.add(2).read_volatile() }
     }
 
+    /// Words that are written to the pen's file at once.
+    const WORDS: usize = 64;
+
     struct Channel {
+        console: usize,
+        pen: usize,
+        words: [u32; WORDS],
+        used: usize,
         from: u32,
-        worst: u32,
-        total: u64,
+        /// Longest and all ticks of each kind of work.
+        worst: [u32; 4],
+        total: [u32; 4],
+    }
+
+    impl Channel {
+        fn line(&self, tag: u8, numbers: &[u32]) {
+            let mut text = [b' '; 160];
+            let mut slots = text.iter_mut();
+            let mut put = |c: u8| {
+                if let Some(slot) = slots.next() {
+                    *slot = c;
+                }
+            };
+            put(tag);
+            for n in numbers {
+                put(b' ');
+                for digit in (0..8).rev() {
+                    let d = (n >> (4 * digit) & 15) as u8;
+                    put(if d < 10 { b'0' + d } else { b'a' + d - 10 });
+                }
+            }
+            put(b'\n');
+            write(self.console, text.as_ptr(), (2 + 9 * numbers.len()).min(text.len()));
+        }
+
+        fn put(&mut self, word: u32) {
+            if let Some(slot) = self.words.get_mut(self.used) {
+                *slot = word;
+                self.used += 1;
+            }
+            if self.used == WORDS {
+                self.flush();
+            }
+        }
+
+        fn flush(&mut self) {
+            write(self.pen, self.words.as_ptr().cast(), 4 * self.used);
+            self.used = 0;
+        }
     }
 
     impl Listener for Channel {
-        fn phase(&mut self, phase: u32) {
-            line(b'p', &[phase, self.total as u32]);
-        }
-        fn before_step(&mut self) {
+        fn before(&mut self) {
             self.from = ticks();
         }
-        fn after_step(&mut self) {
+        fn after(&mut self, work: Work) {
             let spent = self.from.wrapping_sub(ticks()) & 0x00FF_FFFF;
-            self.worst = self.worst.max(spent);
-            self.total += u64::from(spent);
+            if let (Some(worst), Some(total)) = (self.worst.get_mut(work as usize), self.total.get_mut(work as usize)) {
+                *worst = spent.max(*worst);
+                *total = total.wrapping_add(spent);
+            }
         }
         fn sample(&mut self, s: &Sample<f32>) {
             let [t, x, y, lfs] = [s.at.t, s.point.x, s.point.y, s.lfs].map(f32::to_bits);
-            line(b's', &[s.path, s.at.segment, t, x, y, lfs, s.bound as u32]);
+            self.line(b's', &[s.path, s.at.segment, t, x, y, lfs, s.bound as u32]);
+        }
+        fn pen(&mut self, down: bool) {
+            self.put(u32::from(down));
+        }
+        fn motor(&mut self, step: MotorStep) {
+            self.put(step.word());
         }
     }
 
     /// Top of the stack, and how far down it is watched.
     const TOP: usize = 0x2040_0000;
-    const WATCHED: usize = 0x4_0000;
+    const WATCHED: usize = 0x1_0000;
     const PAINT: u32 = 0x5AFE_57AC;
 
     /// Paints the unused part of the stack.
@@ -134,72 +152,49 @@ mod chip {
         (TOP - lost.unwrap_or(TOP)) as u32
     }
 
-    macro_rules! lent {
-        ($kind:ty, $count:expr) => {{
-            static mut SLOTS: MaybeUninit<[$kind; $count]> = MaybeUninit::uninit();
-            // SAFETY: this runs once, before anything else; every slot is written before the slice is made.
-            unsafe {
-                let first = (&raw mut SLOTS).cast::<$kind>();
-                for i in 0..$count {
-                    first.add(i).write(<$kind>::default());
-                }
-                core::slice::from_raw_parts_mut(first, $count)
-            }
-        }};
-    }
-
     #[unsafe(no_mangle)]
     extern "C" fn start() -> ! {
-        // SYS_OPEN ":tt" for writing is the console; "job.fsj" for reading binary.
-        let console = [b":tt\0".as_ptr() as usize, 4, 3];
-        // SAFETY: nothing else runs yet.
-        unsafe { CONSOLE = semihost(1, console.as_ptr() as usize) };
-        let job = [b"job.fsj\0".as_ptr() as usize, 1, 7];
-        let file = semihost(1, job.as_ptr() as usize);
+        let console = open(b":tt\0", 4);
         // SAFETY: the system timer's registers: largest reload, processor clock, no interrupt.
         unsafe {
             SYSTICK.add(1).write_volatile(0x00FF_FFFF);
             SYSTICK.add(2).write_volatile(0);
             SYSTICK.write_volatile(5);
         }
-        let bytes = core::iter::from_fn(|| {
-            let mut byte = 0_u8;
-            let block = [file, (&raw mut byte) as usize, 1];
-            // SYS_READ answers how many bytes were not read.
-            let left = semihost(6, block.as_ptr() as usize);
-            // SAFETY: the debugger wrote to the byte behind the compiler's back.
-            (left == 0).then(|| unsafe { (&raw const byte).read_volatile() })
-        });
-        let mut arena = Arena {
-            cubics: lent!(feature_sampling::bezier::Cubic<f32>, CUBICS),
-            lengths: lent!((usize, bool), PATHS),
-            segments: lent!(feature_sampling::curve::Segment<f32>, SEGMENTS),
-            paths: lent!(feature_sampling::curve::Path, PATHS),
-            arcs: lent!(feature_sampling::curve::Arc<f32>, ARCS),
-            nodes: lent!(feature_sampling::geometry::hierarchy::Node<f32>, ARC_NODES),
-            items: lent!(feature_sampling::geometry::hierarchy::Item<f32>, ARCS),
-            order: lent!(u32, ORDER),
-            contacts: lent!(feature_sampling::curve::contact::Contact<f32>, CONTACTS),
-            medial: lent!(feature_sampling::medial::MedialPoint<f32>, MEDIAL),
-            medial_items: lent!(feature_sampling::geometry::hierarchy::Item<f32>, MEDIAL_ITEMS),
-            medial_nodes: lent!(feature_sampling::geometry::hierarchy::Node<f32>, MEDIAL_NODES),
-        };
-        let mut channel = Channel { from: 0, worst: 0, total: 0 };
-        paint();
-        match run(bytes, 8, &mut arena, &mut channel) {
-            Ok(t) => line(
-                b'e',
-                &[t.samples, t.calls, t.medial as u32, t.arcs as u32, channel.worst, channel.total as u32, depth()],
-            ),
-            Err(fault) => line(
-                b'f',
-                &[match fault {
-                    Fault::Job(_) => 1,
-                    Fault::Memory => 2,
-                    Fault::Curve => 3,
-                    Fault::Sampling(_) => 4,
-                }],
-            ),
+        let (mut job, mut pen) = (*b"job0.fsj\0", *b"pen0.bin\0");
+        loop {
+            let file = open(&job, 1);
+            if file == usize::MAX {
+                break;
+            }
+            let pen_file = open(&pen, 5);
+            let bytes = core::iter::from_fn(|| {
+                let mut byte = 0_u8;
+                let block = [file, (&raw mut byte) as usize, 1];
+                // SYS_READ answers how many bytes were not read.
+                let left = semihost(6, block.as_ptr() as usize);
+                // SAFETY: the debugger wrote to the byte behind the compiler's back.
+                (left == 0).then(|| unsafe { (&raw const byte).read_volatile() })
+            });
+            let mut channel =
+                Channel { console, pen: pen_file, words: [0; WORDS], used: 0, from: 0, worst: [0; 4], total: [0; 4] };
+            paint();
+            // SAFETY: the only call.
+            let done = unsafe { board::job(bytes, 8, &mut channel) };
+            let deep = depth();
+            channel.flush();
+            match done {
+                Ok(t) => {
+                    let Channel { worst: [a, b, c, d], total: [e, f, g, h], .. } = channel;
+                    channel.line(b'e', &[t.segments, t.arcs, t.medial, t.blocks, t.samples, t.calls, t.steps]);
+                    channel.line(b'w', &[a, b, c, d, e, f, g, h, deep, board::BYTES as u32]);
+                }
+                Err(fault) => channel.line(b'f', &[fault.code()]),
+            }
+            close(pen_file);
+            close(file);
+            job[3] += 1;
+            pen[3] += 1;
         }
         // SYS_EXIT, application exit.
         semihost(0x18, 0x20026);
@@ -208,7 +203,6 @@ mod chip {
 
     #[panic_handler]
     fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-        write(b"panic\n");
         semihost(0x18, 0x20024);
         loop {}
     }

@@ -1,4 +1,5 @@
-//! The controller on the host: reads a job from standard input or the file that is named, prints the samples as the chip does.
+//! The controller on the host: runs the job that is named (`host JOB [PEN]`), prints the samples as the chip does and writes
+//! the motors' steps to PEN.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
@@ -10,53 +11,73 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 #[cfg(not(target_os = "none"))]
 fn main() {
     use feature_sampling::sampling::Sample;
+    use fsample_planner::MotorStep;
     use plotter::*;
 
-    struct Print;
+    #[derive(Default)]
+    struct Print {
+        pen: Vec<u8>,
+    }
     impl Listener for Print {
-        fn phase(&mut self, _: u32) {}
-        fn before_step(&mut self) {}
-        fn after_step(&mut self) {}
+        fn before(&mut self) {}
+        fn after(&mut self, _: Work) {}
         fn sample(&mut self, s: &Sample<f32>) {
             let [t, x, y, lfs] = [s.at.t, s.point.x, s.point.y, s.lfs].map(f32::to_bits);
             println!("s {:08x} {:08x} {t:08x} {x:08x} {y:08x} {lfs:08x} {:08x}", s.path, s.at.segment, s.bound as u32);
         }
+        fn pen(&mut self, down: bool) {
+            self.pen.extend(u32::from(down).to_le_bytes());
+        }
+        fn motor(&mut self, step: MotorStep) {
+            self.pen.extend(step.word().to_le_bytes());
+        }
     }
 
-    let bytes = std::fs::read(std::env::args().nth(1).unwrap_or_else(|| "job.fsj".into())).expect("a job file");
-    let budget = std::env::args().nth(2).map_or(8, |b| b.parse().expect("a number of turns"));
-    let answer = std::thread::Builder::new()
-        .stack_size(64 << 20)
-        .spawn(move || {
-            let (mut medial, mut nodes) = (vec![Default::default(); MEDIAL], vec![Default::default(); MEDIAL_NODES]);
-            run(
-                bytes.into_iter(),
-                budget,
-                &mut Arena {
-                    cubics: &mut vec![Default::default(); CUBICS],
-                    lengths: &mut [(0, false); PATHS],
-                    segments: &mut vec![Default::default(); SEGMENTS],
-                    paths: &mut vec![Default::default(); PATHS],
-                    arcs: &mut vec![Default::default(); ARCS],
-                    nodes: &mut vec![Default::default(); ARC_NODES],
-                    items: &mut vec![Default::default(); ARCS],
-                    order: &mut vec![0; ORDER],
-                    contacts: &mut vec![Default::default(); CONTACTS],
-                    medial: &mut medial,
-                    medial_items: &mut vec![Default::default(); MEDIAL_ITEMS],
-                    medial_nodes: &mut nodes,
-                },
-                &mut Print,
-            )
-        })
-        .expect("a thread")
-        .join()
-        .expect("no panic");
+    let mut arguments = std::env::args().skip(1);
+    let (Some(job), pen) = (arguments.next(), arguments.next()) else {
+        eprintln!("usage: host JOB [PEN]");
+        std::process::exit(2)
+    };
+    let bytes = match std::fs::read(&job) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            eprintln!("{job}: {error}");
+            std::process::exit(3)
+        }
+    };
+    let mut print = Print::default();
+    let mut curve = CurveMemory {
+        segments: &mut vec![Default::default(); SEGMENTS],
+        paths: &mut vec![Default::default(); PATHS],
+        arcs: &mut vec![Default::default(); ARCS],
+        nodes: &mut vec![Default::default(); NODES],
+    };
+    let scratch = Scratch {
+        cubics: &mut vec![Default::default(); CUBICS],
+        lengths: &mut [(0, false); PATHS],
+        items: &mut vec![Default::default(); LEAVES],
+        order: &mut vec![0; ORDER],
+    };
+    let answer = receive(bytes.into_iter(), &mut curve, scratch).and_then(|received| {
+        let medial = MedialMemory {
+            contacts: &mut vec![Default::default(); CONTACTS],
+            blocks: &mut vec![Default::default(); BLOCKS],
+            boxes: &mut vec![Default::default(); BOXES],
+        };
+        draw(&received, &curve, medial, 8, &mut print)
+    });
+    if let Some(name) = pen
+        && let Err(error) = std::fs::write(&name, &print.pen)
+    {
+        eprintln!("{name}: {error}");
+        std::process::exit(4)
+    }
     match answer {
         Ok(totals) => eprintln!("{totals:?}"),
         Err(fault) => {
-            println!("fault {fault:?}");
-            std::process::exit(3);
+            println!("f {:08x}", fault.code());
+            eprintln!("{fault:?}");
+            std::process::exit(3)
         }
     }
 }

@@ -118,7 +118,7 @@ fn random_lines_keep_every_limit_and_end_where_they_should() {
         let points: Vec<[f32; 2]> = (0..40)
             .map(|_| {
                 // Runs of smooth points, sharp turns, and points that repeat.
-                let step = size * random.unit() * if random.next() % 5 == 0 { 0.0 } else { 1.0 };
+                let step = size * random.unit() * if random.next().is_multiple_of(5) { 0.0 } else { 1.0 };
                 let angle = 6.3 * random.unit() * if round % 3 == 0 { 0.05 } else { 1.0 };
                 p = [p[0] + step * angle.cos(), p[1] + step * angle.sin()];
                 p

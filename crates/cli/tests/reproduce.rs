@@ -28,7 +28,16 @@ fn table1_in_all_forms() {
     assert!(markdown.contains("Ground truth: "), "it says which: {markdown}");
     assert!(!markdown.contains("Warning"), "a curve was given");
     let json: serde_json::Value = serde_json::from_str(&read("table1.json")).expect("JSON");
-    assert_eq!(json["tables"].as_array().map(Vec::len), Some(2), "the table and the comparison of scalars");
+    assert_eq!(json["tables"].as_array().map(Vec::len), Some(3), "the table and the comparison of scalars");
+    let agreement = read("table1-agreement.csv");
+    let (header, rows) = agreement.split_once('\n').expect("a header");
+    assert_eq!(rows.lines().count(), 4, "two scalars, two kinds of places: {agreement}");
+    for row in rows.lines() {
+        for what in ["unexplained", "lfs_beyond_bound"] {
+            assert_eq!(column(header, row, what), "0", "{what}: {row}");
+        }
+        assert_ne!(column(header, row, "places"), "0", "{row}");
+    }
     for plot in ["table1-lfs.svg", "table1-medial.svg", "table1-time.svg"] {
         let svg = read(plot);
         assert!(svg.contains("drawing f64") && !svg.contains("NaN"), "{plot}");
@@ -61,6 +70,42 @@ fn table2_in_shards() {
     let other = "reproduce table2 --quick --curve drawing.svg --quiet --merge";
     place.fails(&format!("{other} {first}"), 3, &["table2.shard-1-of-2.csv", "other curves"]);
     place.fails(&format!("{other} other.csv"), 3, &["other.csv: line 1", "no shard"]);
+}
+
+/// Two open strokes that cross, and one that ends on another: lfs is 0 in three places.
+const CROSSING: &str = "0,0,0,0,30,40,70,60,100,100\n1,0,0,100,30,70,70,30,100,0\n2,0,20,80,20,60,30,50,20,20\n";
+
+/// A table of Table 1 without its seconds.
+fn untimed(table: &str) -> Vec<String> {
+    let seconds = table.lines().next().and_then(|header| header.split(',').position(|name| name == "seconds"));
+    let seconds = seconds.expect("a column of seconds");
+    let row = |line: &str| {
+        let cells = line.split(',').enumerate().filter(|(i, _)| *i != seconds);
+        cells.map(|(_, cell)| cell).collect::<Vec<_>>().join(",")
+    };
+    table.lines().map(row).collect()
+}
+
+#[test]
+fn open_and_crossing_strokes_in_shards_and_threads() {
+    let place = Place::new();
+    place.put("crossing.csv", CROSSING);
+    let table1 = "reproduce table1 --quick --curve crossing.csv --quiet";
+    let whole = untimed(&place.ok(&format!("{table1} --threads 1")));
+    assert!(whole.iter().filter(|row| row.starts_with("crossing,")).count() >= 6, "{whole:#?}");
+    assert_eq!(untimed(&place.ok(&format!("{table1} --threads 3"))), whole, "threads");
+    for shard in 1..=3 {
+        place.ok(&format!("{table1} --shard {shard}/3 -o parts"));
+    }
+    let file = |shard: u32| format!("parts/table1.shard-{shard}-of-3.csv");
+    let merged = place.ok(&format!("{table1} --merge {} {} {}", file(3), file(1), file(2)));
+    assert_eq!(untimed(&merged), whole, "shards, in any order");
+    // The second part again in the place of the third.
+    place.fails(&format!("{table1} --merge {} {} {}", file(1), file(2), file(2)), 3, &["in another shard already"]);
+    let full = "reproduce table1 --curve crossing.csv --quiet";
+    place.fails(&format!("{full} --merge {}", file(1)), 3, &["other options"]);
+    place.put("cut.csv", &place.get(&file(1)).replace(",lfs,", ",lfs;"));
+    place.fails(&format!("{table1} --merge cut.csv"), 3, &["cut.csv: line", "three fields"]);
 }
 
 #[test]

@@ -14,6 +14,7 @@
 //! | [`clock`] | time on one core |
 //! | [`source`] | the curves that an experiment is about |
 //! | [`table1`] | Table 1: error and time against steps; [`prototype`] is Ohrhallinger, Mitchell and Wimmer (2016) re-created |
+//! | `truth`, `agreement` | the ground truth of Table 1; where scalars disagree with it, and why |
 //! | [`bars`] | bar charts, as SVG |
 //! | [`silhouette`], [`figure6`] | outlines of images and drawings, and their reconstruction |
 //! | [`study`] | the reconstruction study: sample sets, correctness, shares by ε |
@@ -25,6 +26,7 @@
 //!
 //! What the paper prints is kept beside what is computed, in the module of its table.
 
+mod agreement;
 pub mod bars;
 pub mod clock;
 pub mod companion;
@@ -46,6 +48,7 @@ pub mod table1;
 pub mod table2;
 pub mod table3;
 pub mod table4;
+mod truth;
 
 pub use report::Report;
 

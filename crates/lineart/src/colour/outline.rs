@@ -113,10 +113,13 @@ fn join(plane: &Plane<'_>, first: &Run, second: &Run) -> Option<Run> {
         0.0
     };
     let (from, to) = (second.from + turn, second.to + turn);
-    // Pieces shorter than the lattice can show have been dropped between them.
+    // Pieces shorter than the lattice can show have been dropped between them. A small loop of the path that ends in this
+    // same vertex is no such piece: it leaves on the way.
     let forwards = if first.forward { from >= first.to - 1e-9 } else { from <= first.to + 1e-9 };
     let track = Track::new(&path.cubics);
-    let near = track.eval_around(first.to).distance(&track.eval_around(from)) <= 8.0 * plane.unit;
+    let vertex = track.eval_around(first.to);
+    let between = (1..=8).map(|i| first.to + (from - first.to) * f64::from(i) / 8.0);
+    let near = between.into_iter().all(|u| track.eval_around(u).distance(&vertex) <= 8.0 * plane.unit);
     (forwards && near && (from - first.to).abs() < 0.25 && (to - first.from).abs() <= n).then_some(Run {
         to,
         end: second.end,

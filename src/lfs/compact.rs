@@ -343,7 +343,7 @@ mod tests {
         let (mut slots, mut boxes) = ([Block::default(); 64], [Aabb::default(); 64]);
         let mut blocks = Blocks::new(&mut slots, 0.0);
         for m in &points {
-            blocks.take(m.clone()).unwrap();
+            blocks.take(*m).unwrap();
         }
         assert_eq!(blocks.taken(), 450);
         let blocks = blocks.finish().unwrap();
@@ -374,7 +374,7 @@ mod tests {
             let (mut slots, mut boxes) = ([Block::default(); 64], [Aabb::default(); 64]);
             let mut blocks = Blocks::new(&mut slots, 0.0);
             for m in points.iter().take(count) {
-                blocks.take(m.clone()).unwrap();
+                blocks.take(*m).unwrap();
             }
             let blocks = blocks.finish().unwrap();
             let index = CompactIndex::build(blocks, &mut boxes).unwrap();
@@ -392,11 +392,11 @@ mod tests {
         let points = points();
         let mut slots = [Block::default(); 2];
         let mut blocks = Blocks::new(&mut slots, 0.0);
-        let refused = points.iter().find_map(|m| blocks.take(m.clone()).err());
+        let refused = points.iter().find_map(|m| blocks.take(*m).err());
         assert_eq!(refused, Some(BufferFull { capacity: 2 }));
-        let (mut slots, mut none) = ([Block::default(); 8], [Aabb::default(); 0]);
+        let (mut slots, mut none) = ([Block::default(); 8], []);
         let mut blocks = Blocks::new(&mut slots, 0.0);
-        points.iter().take(80).for_each(|m| blocks.take(m.clone()).unwrap());
+        points.iter().take(80).for_each(|m| blocks.take(*m).unwrap());
         assert!(CompactIndex::build(blocks.finish().unwrap(), &mut none).is_err());
     }
 

@@ -60,6 +60,7 @@
 //! | [`medial`] | [foot points](medial::foot), [tangent disks](medial::disk), [medial polylines](medial::walk()) | 3.1, 7.1 |
 //! | [`lfs`] | distance to the medial polylines | 3.2 |
 //! | [`sampling`] | ε-samples and ρ-samples, d_min, d_max, chord error, grading | 3.3, 5.2, 6 |
+//! | [`certificate`] | proofs that samples are ε-samples, and points where they are none | |
 #![cfg_attr(
     feature = "alloc",
     doc = "| [`model`] | the whole chain in vectors: a thin owner without an algorithm of its own | |"
@@ -91,6 +92,7 @@ extern crate alloc;
 
 pub mod bezier;
 pub mod buffer;
+pub mod certificate;
 pub mod curve;
 pub mod geometry;
 pub mod lfs;

@@ -5,15 +5,20 @@
 
 use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};
+use crate::certificate::condition::{Workspace, judge};
+use crate::certificate::singular::neighbourhoods;
+use crate::certificate::{Claim, Neighbourhood, Piece, Placed, Verdict};
 use crate::curve::contact::{self, Contact};
 use crate::curve::door::{self, CurveBuffers, CurveError, DoorOptions, DoorReport, Entered, PathInput};
-use crate::curve::{Arc, Curve, CurveParam, Path, Segment};
+use crate::curve::{Arc, Curve, CurveParam, Path, Segment, ideal};
 use crate::geometry::Point;
 use crate::geometry::hierarchy::{Item, Node};
+use crate::lfs::bound::Band;
 use crate::lfs::{self, LfsIndex};
+use crate::medial::clear::Scene;
 use crate::medial::{self, MedialPoint, Resolution};
 use crate::sampling::{self, Sample, SamplingError, SamplingOptions};
-use crate::scalar::Scalar;
+use crate::scalar::{Directed, Scalar};
 use alloc::vec::Vec;
 
 type Buffers<S> = CurveBuffers<Vec<Segment<S>>, Vec<Path>, Vec<Arc<S>>, Vec<Node<S>>, Vec<Item<S>>, Vec<u32>>;
@@ -134,6 +139,40 @@ impl<S: Scalar> CurveModel<S> {
             all.append(&mut self.sample_path(medial, path, options)?);
         }
         Ok(all)
+    }
+}
+
+/// What came of judging samples.
+#[derive(Clone, Debug)]
+pub struct Judgement<S> {
+    /// The answer.
+    pub verdict: Verdict<S>,
+    /// Pieces that cover C, by path and parameter (fewer where the first witness ended it), with indices into the samples.
+    pub pieces: Vec<Piece<S>>,
+    /// Where a floor serves.
+    pub neighbourhoods: Vec<Neighbourhood<S>>,
+    /// Cells of the foot set that were made.
+    pub cells: usize,
+}
+
+impl<S: Directed> CurveModel<S> {
+    /// Judges samples, sorted by path, segment and parameter ([`crate::certificate`]). No more than `cells` cells are made;
+    /// with `stop` the first witness ends it.
+    pub fn certify(&self, samples: &[Placed<S>], claim: &Claim<S>, cells: usize, stop: bool) -> Judgement<S> {
+        let curve = self.curve();
+        let (mut coefficients, mut places, mut extents) = (Vec::new(), Vec::new(), Vec::new());
+        let mut work = Workspace { pieces: Vec::new(), cells: Vec::new() };
+        let mut run = || -> Result<(Verdict<S>, usize), BufferFull> {
+            ideal::coefficients(&curve, &mut coefficients)?;
+            let scene = Scene { curve: &curve, ideal: &coefficients };
+            let mut band = Band::new(scene, Vec::new(), cells)?;
+            neighbourhoods(&mut band, &self.contacts, claim, &mut places, &mut extents)?;
+            let verdict = judge(&mut band, samples, claim, &extents, stop, &mut work)?;
+            Ok((verdict, band.len()))
+        };
+        // Vectors are never full.
+        let (verdict, cells) = run().unwrap_or((Verdict::Unknown, 0));
+        Judgement { verdict, pieces: work.pieces, neighbourhoods: places, cells }
     }
 }
 

@@ -14,6 +14,7 @@
 pub mod arc;
 pub mod contact;
 pub mod door;
+pub mod ideal;
 pub mod joint;
 pub mod nearest;
 mod twin;
@@ -61,6 +62,22 @@ impl<S: Scalar> Source<S> {
             return self.to.clone();
         }
         (self.to.clone() - &self.from) * &t + &self.from
+    }
+}
+
+impl<S: Scalar> Source<S> {
+    /// The parameter of the segment where the source has the parameter t: what [`Self::parameter`] undoes.
+    pub fn place(&self, t: &S) -> S {
+        let width = self.to.clone() - &self.from;
+        if *t >= self.to || width <= S::zero() {
+            return S::one();
+        }
+        let s = ((t.clone() - &self.from) / &width).clamp(S::zero(), S::one());
+        let Some([alpha, beta]) = &self.handles else { return s };
+        let (three, r) = (S::int(3), S::one() - &s);
+        let a = alpha.clone() * &three * &r * &r;
+        let b = beta.clone() * &three * &r * &s;
+        ((a + &b + &s.clone().square()) * &s).clamp(S::zero(), S::one())
     }
 }
 

@@ -1,6 +1,8 @@
 //! Vectors: differences of points.
+//!
+//! Algebra holds over any [`Field`], intervals included; what compares asks for a [`Scalar`].
 
-use crate::scalar::Scalar;
+use crate::scalar::{Field, Scalar};
 
 /// A difference of two points, in user units (or a direction, or a derivative: then per unit of parameter).
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -11,7 +13,7 @@ pub struct Vector<S> {
     pub y: S,
 }
 
-impl<S: Scalar> Vector<S> {
+impl<S: Field> Vector<S> {
     /// The vector (x, y).
     #[inline]
     pub const fn new(x: S, y: S) -> Self {
@@ -75,7 +77,7 @@ impl<S: Scalar> Vector<S> {
     /// Squared length.
     #[inline]
     pub fn norm_sq(&self) -> S {
-        self.dot(self)
+        self.x.clone().square() + &self.y.clone().square()
     }
 
     /// Length.
@@ -83,7 +85,9 @@ impl<S: Scalar> Vector<S> {
     pub fn norm(&self) -> S {
         self.norm_sq().sqrt()
     }
+}
 
+impl<S: Scalar> Vector<S> {
     /// The unit vector of the same direction; `None` where the length is zero or not finite.
     ///
     /// The vector is first divided by its larger coordinate, so that nothing overflows or vanishes on the way.

@@ -7,6 +7,7 @@
 //! The estimate is exact for M': |lfs'(p) − lfs(p)| is at most the Hausdorff distance of M' and M near p. Like lfs itself
 //! it is 1-Lipschitz. M' may be empty (a lone straight segment): lfs is then infinite.
 
+pub mod bound;
 pub mod compact;
 #[cfg(feature = "kiddo")]
 pub mod kd;

@@ -5,6 +5,8 @@
 //! by fans, gives medial *polylines*. Both sides of every stroke are kept: the paper keeps the nearer one, which makes lfs
 //! too large (by up to 5 % on its own test curve).
 
+pub mod cell;
+pub mod clear;
 pub mod disk;
 pub mod foot;
 mod pencil;

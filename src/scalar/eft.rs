@@ -49,6 +49,18 @@ pub trait Directed: Scalar {
     /// At least `self` × 2^e.
     fn mul_pow2_up(&self, e: i32) -> Self;
 
+    /// At most every real number that rounds to `self`, with a few roundoffs to spare: cheap, and without branches.
+    #[inline]
+    fn below(&self) -> Self {
+        self.clone() - &self.clone().abs().mul_pow2(2 - Self::BITS.cast_signed())
+    }
+
+    /// At least every real number that rounds to `self`, with a few roundoffs to spare.
+    #[inline]
+    fn above(&self) -> Self {
+        self.clone().abs().mul_pow2(2 - Self::BITS.cast_signed()) + self
+    }
+
     /// At most `self` − b.
     #[inline]
     fn sub_down(&self, b: &Self) -> Self {
@@ -223,6 +235,15 @@ macro_rules! directed {
             #[inline]
             fn int_up(n: i32) -> Self {
                 Self::from_f64_up(f64::from(n))
+            }
+            #[inline]
+            fn below(&self) -> Self {
+                // Four units of roundoff, and the smallest normal number for products that underflow.
+                self - (self.abs() * (2.0 * $float::EPSILON) + $float::MIN_POSITIVE)
+            }
+            #[inline]
+            fn above(&self) -> Self {
+                self + (self.abs() * (2.0 * $float::EPSILON) + $float::MIN_POSITIVE)
             }
             #[inline]
             fn mul_pow2_down(&self, e: i32) -> Self {

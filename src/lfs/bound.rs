@@ -1,0 +1,225 @@
+//! Certified bounds of lfs: the medial axis in a band of capsules, refined where it matters.
+//!
+//! A [`Band`] is a forest of [cells](crate::medial::cell): a subdivision of the whole foot set, each cell with an enclosure of
+//! the medial points that stand on it. Since every point of M is a medial point of the foot set (or a limit of such), every
+//! level of the forest encloses M: the union of its capsules is a *band* around the medial axis. Nothing is computed before it
+//! is asked for, nothing twice, and no bound on the reach is needed beforehand.
+//!
+//! **Lower bounds.** Let m = f + r d stand on a cell and p be any point of C. Disks are empty, so |p−m| ≥ r, and |p−m| ≥ |p−f| −
+//! r, hence |p−m| ≥ |p−f|/2. To prove lfs(p) ≥ G each cell may therefore be discharged in one of three ways: it is farther than
+//! 2G from p, its radii are at least G, or the part of its capsule with radii below G is at least G away. Radii above G are
+//! never needed: far cells, inflections and half-planes cost nothing.
+//!
+//! **Upper bounds.** A cell whose radii have an upper bound contains a point of M within the capsule: |p−m| is at most the
+//! distance to its farther end, and the spread.
+//!
+//! Proofs: `docs/certificates.md`, sections 1, 2 and 6.
+
+use crate::buffer::{BufferFull, Store};
+use crate::curve::CurveParam;
+use crate::geometry::Point;
+use crate::medial::cell::{Cell, FootSpan, UNDIVIDED, roots, slop};
+use crate::medial::clear::Scene;
+use crate::scalar::Directed;
+
+/// Two-sided bounds of lfs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LfsBounds<S> {
+    /// lfs is at least this.
+    pub lower: S,
+    /// lfs is at most this; infinite where no medial point was proved.
+    pub upper: S,
+}
+
+/// A forest of cells over the whole foot set.
+#[derive(Debug)]
+pub struct Band<'a, S, B> {
+    scene: Scene<'a, S>,
+    cells: B,
+    /// Number of roots over arcs: two for each arc, in the order of the arcs.
+    arcs: usize,
+    /// Number of all roots.
+    roots: usize,
+    /// No more cells than this.
+    limit: usize,
+    slop: S,
+}
+
+/// What became of a cell in a proof of lfs ≥ G.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Discharge {
+    /// It cannot come nearer than G.
+    Done,
+    /// It may.
+    Open,
+}
+
+impl<'a, S: Directed, B: Store<Cell<S>>> Band<'a, S, B> {
+    /// The roots of the forest, in a store that is emptied first. `limit` bounds the number of cells for good.
+    ///
+    /// # Errors
+    /// [`BufferFull`] where the store cannot take the roots.
+    pub fn new(scene: Scene<'a, S>, mut cells: B, limit: usize) -> Result<Self, BufferFull> {
+        cells.shorten(0);
+        roots(&scene, |feet| cells.push(Cell::new(&scene, feet)))?;
+        let (arcs, roots) = (2 * scene.curve.arcs.len(), cells.items().len());
+        let slop = slop(&scene);
+        Ok(Self { scene, cells, arcs, roots, limit, slop })
+    }
+
+    /// What the band is about.
+    pub const fn scene(&self) -> &Scene<'a, S> {
+        &self.scene
+    }
+
+    /// All cells of all levels.
+    pub fn cells(&self) -> &[Cell<S>] {
+        self.cells.items()
+    }
+
+    /// How many cells were made so far.
+    pub fn len(&self) -> usize {
+        self.cells.items().len()
+    }
+
+    /// There is no foot at all.
+    pub fn is_empty(&self) -> bool {
+        self.cells.items().is_empty()
+    }
+
+    /// The rounding that comparisons of plain numbers allow for.
+    pub const fn slop(&self) -> &S {
+        &self.slop
+    }
+
+    /// Appends the roots that may have feet nearer to p than `reach`.
+    ///
+    /// # Errors
+    /// [`BufferFull`].
+    pub fn near(&self, p: &Point<S>, reach: &S, out: &mut impl Store<u32>) -> Result<(), BufferFull> {
+        let reach = reach.clone() + &self.slop;
+        let reach_sq = reach.clone().square();
+        let mut result = Ok(());
+        self.scene.curve.hierarchy().traverse(
+            p,
+            &mut (),
+            |(), bounds| bounds.distance_sq(p) <= reach_sq,
+            |(), arc, _| {
+                for side in 0..2 {
+                    if result.is_ok() {
+                        result = out.push(2 * arc + side);
+                    }
+                }
+            },
+        );
+        result?;
+        for index in self.arcs..self.roots {
+            let Some(cell) = self.cells.items().get(index) else { break };
+            if cell.centre.distance(p) <= reach {
+                out.push(u32::try_from(index).unwrap_or(u32::MAX))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether no medial point of a cell lies nearer than `g` to any point within `h` of p.
+    pub fn discharge(&mut self, index: u32, p: &Point<S>, h: &S, g: &S) -> Discharge {
+        let Some(cell) = self.cells.items_mut().get_mut(index as usize) else { return Discharge::Done };
+        let margin = h.clone() + &self.slop;
+        let far = cell.centre.distance(p) - &cell.half - &margin;
+        if far >= g.clone().twice() {
+            return Discharge::Done;
+        }
+        // A cell longer than the distance in question is better divided than enclosed.
+        if cell.half > g.clone().half() {
+            return Discharge::Open;
+        }
+        if !matches!(cell.feet, FootSpan::Corner { .. }) {
+            cell.enclose(&self.scene, g);
+        }
+        if cell.lower >= *g || cell.distance(p, g) - &margin >= *g {
+            return Discharge::Done;
+        }
+        Discharge::Open
+    }
+
+    /// How large the part of a cell's capsule with radii below `g` is: half its length and its spread, and the spread alone.
+    pub fn extent(&self, index: u32, g: &S) -> [S; 2] {
+        let Some(cell) = self.cells.items().get(index as usize) else { return [S::zero(), S::zero()] };
+        let far = cell.upper.clone().min(g.clone()).max(cell.lower.clone());
+        let axis = far.clone() - &cell.lower;
+        let spread = cell.spread(&cell.lower, &far);
+        // The spread may vanish where the capsule is long: what counts is what another division would change.
+        let mut movable = cell.half.clone() + &(cell.turning().clone() * &far);
+        // Where C touches a foot nothing is known from below, however small the cell.
+        if cell.lower <= self.slop && movable < axis.clone().mul_pow2(-5) {
+            movable = S::zero();
+        }
+        [axis.half() + &spread, movable]
+    }
+
+    /// The cell has halves already.
+    pub fn divided(&self, index: u32) -> bool {
+        self.cells.items().get(index as usize).is_some_and(|c| c.children != UNDIVIDED)
+    }
+
+    /// At least lfs at a place on C, from the medial points that stand there, as far as they are nearer than `limit`.
+    ///
+    /// p is the point at that place, to within the [slop](Self::slop).
+    pub fn upper_at(&mut self, at: &CurveParam<S>, p: &Point<S>, limit: &S) -> S {
+        let mut best = S::infinity();
+        let Some(segment) = self.scene.curve.segment(at.segment) else { return best };
+        let (index, t) = match segment.twin {
+            Some(twin) if twin.reversed => (twin.segment, S::one() - &at.t),
+            Some(twin) => (twin.segment, at.t.clone()),
+            None => (at.segment, at.t.clone()),
+        };
+        let Some((first, count)) = self.scene.curve.segment(index).map(|s| s.arcs) else { return best };
+        let arcs = self.scene.curve.arcs.get(first as usize..(first + count) as usize).unwrap_or_default();
+        let arc = first + u32::try_from(arcs.partition_point(|a| a.span[1] < t)).unwrap_or(0).min(count.max(1) - 1);
+        for side in 0..2 {
+            let mut cell = 2 * arc + side;
+            // Down to cells of a few thousandths of the limit.
+            for _ in 0..48 {
+                let Some(c) = self.cells.items_mut().get_mut(cell as usize) else { break };
+                if c.half <= limit.clone().half() {
+                    c.enclose(&self.scene, limit);
+                    best = best.min(c.farthest(p));
+                    if best < *limit || c.half <= limit.clone().mul_pow2(-8) || c.lower >= *limit {
+                        break;
+                    }
+                }
+                let Some([a, b]) = self.divide(cell) else { break };
+                let before = self.cells.items().get(a as usize).is_some_and(|c| match &c.feet {
+                    FootSpan::Normal { span, .. } => t <= span[1],
+                    _ => true,
+                });
+                cell = if before { a } else { b };
+            }
+        }
+        best
+    }
+
+    /// The two halves of a cell, made where they do not exist yet; `None` where it cannot be divided or the limit is reached.
+    pub fn divide(&mut self, index: u32) -> Option<[u32; 2]> {
+        let len = self.cells.items().len();
+        let cell = self.cells.items().get(index as usize)?;
+        if cell.children != UNDIVIDED {
+            return Some([cell.children, cell.children + 1]);
+        }
+        if len + 2 > self.limit {
+            return None;
+        }
+        let [a, b] = cell.halves(&self.scene)?;
+        let first = u32::try_from(len).ok()?;
+        self.cells.push(a).ok()?;
+        if self.cells.push(b).is_err() {
+            self.cells.shorten(len);
+            return None;
+        }
+        if let Some(cell) = self.cells.items_mut().get_mut(index as usize) {
+            cell.children = first;
+        }
+        Some([first, first + 1])
+    }
+}

@@ -1,0 +1,128 @@
+//! Certificates: bounds hold, faults are found, nothing false is proved.
+
+use feature_sampling::bezier::Cubic;
+use feature_sampling::certificate::{Claim, Placed, Verdict};
+use feature_sampling::curve::door::DoorOptions;
+use feature_sampling::curve::ideal;
+use feature_sampling::geometry::Point;
+use feature_sampling::lfs::bound::Band;
+use feature_sampling::medial::Resolution;
+use feature_sampling::medial::clear::Scene;
+use feature_sampling::model::{CurveModel, MedialModel};
+use feature_sampling::sampling::{Condition, SamplingOptions};
+
+const CELLS: usize = 200_000;
+
+fn cubic(p: [(f64, f64); 4]) -> Cubic<f64> {
+    let [a, b, c, d] = p.map(|(x, y)| Point::new(x, y));
+    Cubic::new(a, b, c, d)
+}
+
+/// An ellipse of four cubics, with the usual handles.
+fn ellipse(a: f64, b: f64) -> Vec<Cubic<f64>> {
+    let k = 0.552_284_749_830_793_4;
+    vec![
+        cubic([(a, 0.0), (a, k * b), (k * a, b), (0.0, b)]),
+        cubic([(0.0, b), (-k * a, b), (-a, k * b), (-a, 0.0)]),
+        cubic([(-a, 0.0), (-a, -k * b), (-k * a, -b), (0.0, -b)]),
+        cubic([(0.0, -b), (k * a, -b), (a, -k * b), (a, 0.0)]),
+    ]
+}
+
+fn model(paths: &[(bool, Vec<Cubic<f64>>)]) -> CurveModel<f64> {
+    let input: Vec<(bool, &[Cubic<f64>])> = paths.iter().map(|(closed, c)| (*closed, c.as_slice())).collect();
+    CurveModel::new(&input, &DoorOptions::default()).expect("a curve")
+}
+
+fn sampled(model: &CurveModel<f64>, epsilon: f64) -> Vec<Placed<f64>> {
+    let medial = MedialModel::new(model, &Resolution::Tolerance(1e-3));
+    let options =
+        SamplingOptions { condition: Condition::Epsilon(epsilon), tolerance: 1e-3, ..SamplingOptions::default() };
+    let mut placed: Vec<Placed<f64>> = model
+        .sample(&medial, &options)
+        .expect("samples")
+        .iter()
+        .map(|s| Placed { path: s.path, at: s.at, point: s.point })
+        .collect();
+    placed.sort_by(|a, b| (a.path, a.at.segment).cmp(&(b.path, b.at.segment)).then(a.at.t.total_cmp(&b.at.t)));
+    placed
+}
+
+fn verdict(model: &CurveModel<f64>, samples: &[Placed<f64>], epsilon: f64) -> Verdict<f64> {
+    model.certify(samples, &Claim::new(epsilon), CELLS, true).verdict
+}
+
+#[test]
+fn samples_with_slack_are_proved() {
+    for (a, b) in [(1.0, 1.0), (3.0, 1.0), (1.0, 2.0)] {
+        let model = model(&[(true, ellipse(a, b))]);
+        for epsilon in [0.5, 0.66] {
+            let samples = sampled(&model, 0.99 * epsilon);
+            assert_eq!(verdict(&model, &samples, epsilon), Verdict::Proved, "ellipse {a} × {b} at {epsilon}");
+        }
+    }
+}
+
+#[test]
+fn two_strokes_and_open_ends_are_proved() {
+    let strokes = vec![
+        (false, vec![cubic([(0.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 0.0)])]),
+        (false, vec![cubic([(0.0, 1.5), (1.0, 2.0), (2.0, 2.0), (3.5, 1.0)])]),
+    ];
+    let model = model(&strokes);
+    let samples = sampled(&model, 0.49);
+    assert_eq!(verdict(&model, &samples, 0.5), Verdict::Proved);
+}
+
+#[test]
+fn faults_are_refuted() {
+    let model = model(&[(true, ellipse(3.0, 1.0))]);
+    let samples = sampled(&model, 0.495);
+    for i in (0..samples.len()).step_by(4) {
+        let mut fewer = samples.clone();
+        fewer.remove(i);
+        let Verdict::Refuted(w) = verdict(&model, &fewer, 0.5) else { panic!("without sample {i}: not refuted") };
+        // What the witness says holds: no sample is that near, by far more than the bounds' own rounding.
+        let nearest = fewer.iter().map(|s| s.point.distance(&w.point)).fold(f64::INFINITY, f64::min);
+        assert!(nearest >= w.distance && w.distance >= 0.5 * w.lfs, "{w:?}");
+    }
+    // A whole gap in the place of a nudge: each sample moved on to the next one's place.
+    let mut moved = samples.clone();
+    moved[3].at = samples[4].at;
+    moved[3].point = samples[4].point;
+    assert!(matches!(verdict(&model, &moved, 0.5), Verdict::Refuted(_)));
+    assert!(matches!(verdict(&model, &samples, 0.45), Verdict::Refuted(_)), "what is aimed at 0.495 is none at 0.45");
+}
+
+#[test]
+fn without_samples_nothing_is_proved() {
+    let model = model(&[(true, ellipse(2.0, 1.0))]);
+    assert_ne!(verdict(&model, &[], 0.5), Verdict::Proved);
+}
+
+#[test]
+fn a_budget_of_no_cells_is_unknown() {
+    let model = model(&[(true, ellipse(3.0, 1.0))]);
+    let samples = sampled(&model, 0.495);
+    assert_eq!(model.certify(&samples, &Claim::new(0.5), 10, true).verdict, Verdict::Unknown);
+}
+
+/// Four cubics are no circle: the radius is off by 2.7e-4 and the curvature by more, and lfs lies between 0.97 and 1.03. An
+/// upper bound is refined until it is below the limit, if it can be; below lfs it never falls.
+#[test]
+fn upper_bounds_on_nearly_a_circle() {
+    let model = model(&[(true, ellipse(1.0, 1.0))]);
+    let curve = model.curve();
+    let mut coefficients = Vec::new();
+    ideal::coefficients(&curve, &mut coefficients).expect("room");
+    let mut band = Band::new(Scene { curve: &curve, ideal: &coefficients }, Vec::new(), CELLS).expect("room");
+    for segment in 0..4 {
+        for i in 0..25 {
+            let at = feature_sampling::curve::CurveParam { segment, t: f64::from(i) / 24.0 };
+            let p = curve.point(&at).expect("a place");
+            let upper = band.upper_at(&at, &p, &1.05);
+            assert!((0.97..1.05).contains(&upper), "{at:?}: {upper}");
+            assert!(band.upper_at(&at, &p, &0.9) >= 0.97, "{at:?}");
+        }
+    }
+}

@@ -7,6 +7,8 @@
 //! **Threads.** Paths are walked independently of each other, each by whichever thread is free, and put together in the
 //! order of the document. So the number of threads decides how long it takes and nothing else.
 
+mod certified;
+
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -20,6 +22,8 @@ use feature_sampling::model::{CurveModel, MedialModel};
 use feature_sampling::sampling::{Bound, Condition, Sample, SamplingError, SamplingOptions};
 use lineart::drawing::{Drawing, DrawingPath};
 use lineart::export::{LfsRow, MedialRow, PathRows, SampleRow, control_box};
+
+pub(crate) use certified::Judged;
 
 use crate::errors::{Failure, shown};
 use crate::progress::Progress;

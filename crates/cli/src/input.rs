@@ -67,6 +67,45 @@ pub(crate) fn edges(file: &str) -> Result<Vec<(usize, [usize; 2])>, Failure> {
     Ok(edges)
 }
 
+/// A sample as a table of samples has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GivenSample {
+    pub(crate) line: usize,
+    pub(crate) path: u32,
+    pub(crate) segment: u32,
+    pub(crate) t: f64,
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+}
+
+/// Reads samples as `fsample sample` writes them: path,segment,t,x,y and more columns, which are not looked at.
+pub(crate) fn samples(file: &str) -> Result<Vec<GivenSample>, Failure> {
+    let text = text(file)?;
+    let mut samples = Vec::new();
+    let mut header_may_follow = true;
+    for (line, content) in content_lines(&text) {
+        let found: Vec<&str> = fields(content).collect();
+        let row = match found.as_slice() {
+            [path, segment, t, x, y, ..] => (|| {
+                let (path, segment) = (path.parse().ok()?, segment.parse().ok()?);
+                let [t, x, y] = [t, x, y].map(|v| v.parse::<f64>().ok().filter(|v| v.is_finite()));
+                Some(GivenSample { line, path, segment, t: t.filter(|t| (0.0..=1.0).contains(t))?, x: x?, y: y? })
+            })(),
+            _ => None,
+        };
+        match row {
+            Some(row) => samples.push(row),
+            None if header_may_follow && content.starts_with("path") => {}
+            None => {
+                let expected = "is not a sample: write “path,segment,t,x,y”, t from 0 to 1";
+                return Err(Failure::input(file, format!("line {line}: “{content}” {expected}")));
+            }
+        }
+        header_may_follow = false;
+    }
+    Ok(samples)
+}
+
 /// Lines with something other than a comment on them, with their numbers from 1.
 fn content_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     (1..).zip(text.lines()).filter_map(|(line, content)| {

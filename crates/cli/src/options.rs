@@ -50,6 +50,7 @@ pub(crate) enum Command {
     Sample(SampleArgs),
     Medial(MedialArgs),
     Lfs(LfsArgs),
+    Certify(CertifyArgs),
     Inspect(InspectArgs),
     Colour(ColourArgs),
     Compare(CompareArgs),
@@ -136,6 +137,70 @@ pub(crate) struct LfsArgs {
     pub(crate) at: Option<String>,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
+}
+
+/// Prove that samples are an ε-sample of a drawing, or find a point where they are not.
+///
+/// Every point p of a curve must have a sample nearer than ε times the local feature size at p (or than the floor that
+/// holds where that falls to 0). The answer is proved in rounded-outwards arithmetic for all points at once: proved, refuted
+/// (with a point) or unknown. Without --samples, samples are placed first, with some slack, so that they can be proved.
+///
+/// The exit code is 0 for proved and 1 otherwise.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  fsample certify drawing.svg --epsilon 0.5
+  fsample sample drawing.svg --epsilon 0.495 > s.csv && fsample certify drawing.svg --samples s.csv --epsilon 0.5
+  fsample certify drawing.svg --epsilon 0.5 -o certificate.json")]
+pub(crate) struct CertifyArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArg,
+    /// Samples to judge, as fsample sample writes them (csv); - is standard input
+    #[arg(long, value_name = "CSV")]
+    pub(crate) samples: Option<String>,
+    /// What is to be proved: a sample nearer than E times the local feature size, everywhere
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    pub(crate) epsilon: f64,
+    /// A distance that is near enough in any case, to one of the two neighbours along the path
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    pub(crate) min_distance: Option<Length>,
+    /// Where samples are placed first: aim this share below ε
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.01,
+        allow_negative_numbers = true,
+        conflicts_with = "samples"
+    )]
+    pub(crate) slack: f64,
+    /// Answer unknown where more cells of the foot set would be needed
+    #[arg(long, value_name = "N", default_value_t = 4_000_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) max_cells: u32,
+    /// Write the certificate to this file, as JSON
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+}
+
+impl CertifyArgs {
+    /// The slack, if all options make sense without the drawing.
+    pub(crate) fn check(&self) -> Result<f64, Failure> {
+        share("epsilon", self.epsilon)?;
+        if let Some(length) = self.min_distance {
+            above("min-distance", 0.0, length.value())?;
+        }
+        if self.slack > 0.0 && self.slack < 1.0 {
+            Ok(self.slack)
+        } else {
+            Err(Failure::usage(format!("--slack is {}; it lies between 0 and 1", self.slack)))
+        }
+    }
+
+    /// The floor in user units.
+    pub(crate) fn min_distance(&self, drawing: &Drawing, diagonal: f64) -> Result<Option<f64>, Failure> {
+        self.min_distance.map(|l| resolve("min-distance", l, drawing.user_units_per_mm, diagonal)).transpose()
+    }
 }
 
 /// Tell what is in a drawing and what would be made of it.

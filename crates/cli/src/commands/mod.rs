@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod certify;
 mod colour;
 mod compare;
 mod completions;
@@ -24,6 +25,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Sample(args) => sample::run(&args),
         Command::Medial(args) => medial::run(&args),
         Command::Lfs(args) => lfs::run(&args),
+        Command::Certify(args) => certify::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Colour(args) => colour::run(&args),
         Command::Compare(args) => compare::run(&args),

@@ -1,0 +1,85 @@
+//! `fsample certify`: the answer, the exit code and the certificate.
+
+mod common;
+
+use common::Place;
+use serde_json::Value;
+
+/// A place with an ellipse and samples of it that are dense enough for ε = 0.5.
+fn ellipse() -> Place {
+    let place = Place::new();
+    let shape = r#"<svg xmlns="http://www.w3.org/2000/svg"><ellipse cx="3" cy="2" rx="2" ry="1" fill="none"/></svg>"#;
+    place.put("ellipse.svg", shape);
+    let samples = place.ok("sample ellipse.svg --epsilon 0.49 --quiet");
+    place.put("samples.csv", &samples);
+    place
+}
+
+#[test]
+fn samples_are_proved_and_the_certificate_covers_the_path() {
+    let place = ellipse();
+    assert_eq!(place.ok("certify ellipse.svg --samples samples.csv --epsilon 0.5 --quiet -o c.json"), "proved\n");
+    let certificate: Value = serde_json::from_str(&place.get("c.json")).expect("JSON");
+    assert_eq!(certificate["verdict"], "proved");
+    assert_eq!(certificate["epsilon"], 0.5);
+    let samples = certificate["samples"].as_array().expect("samples");
+    assert_eq!(samples.len(), place.get("samples.csv").lines().count() - 1);
+    // The pieces of each cubic follow each other from 0 to 1.
+    let pieces = certificate["pieces"].as_array().expect("pieces");
+    let mut end = (-1, 1.0);
+    for piece in pieces {
+        let segment = piece["segment"].as_i64().expect("an index");
+        let [from, to] = ["from", "to"].map(|name| piece[name].as_f64().expect("a parameter"));
+        let follows =
+            if segment == end.0 { from == end.1 } else { segment == end.0 + 1 && end.1 == 1.0 && from == 0.0 };
+        assert!(follows && to > from, "piece {piece} behind {end:?}");
+        assert_eq!(piece["reason"], "feature");
+        end = (segment, to);
+    }
+    assert_eq!(end, (3, 1.0));
+}
+
+#[test]
+fn a_sample_less_is_refuted_and_the_witness_breaks_the_condition() {
+    let place = ellipse();
+    let fewer: Vec<String> =
+        place.get("samples.csv").lines().enumerate().filter(|(i, _)| *i != 4).map(|(_, l)| l.to_owned()).collect();
+    place.put("fewer.csv", &fewer.join("\n"));
+    let ran = place.run("certify ellipse.svg --samples fewer.csv --epsilon 0.5 --quiet -o c.json");
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    assert!(ran.out.starts_with("refuted at ("), "{}", ran.out);
+    let certificate: Value = serde_json::from_str(&place.get("c.json")).expect("JSON");
+    let witness = &certificate["witness"];
+    let [x, y, distance, lfs] =
+        ["x", "y", "distance_at_least", "lfs_at_most"].map(|name| witness[name].as_f64().expect("a number"));
+    assert!(distance >= 0.5 * lfs, "{witness}");
+    // Independently of the program: the nearest of the samples that were given.
+    let nearest = fewer[1..]
+        .iter()
+        .map(|line| {
+            let columns: Vec<f64> = line.split(',').take(5).map(|v| v.parse().expect("a number")).collect();
+            (columns[3] - x).hypot(columns[4] - y)
+        })
+        .fold(f64::INFINITY, f64::min);
+    assert!(distance <= nearest, "{distance} for {nearest}");
+}
+
+#[test]
+fn samples_are_placed_where_none_are_given() {
+    let place = ellipse();
+    assert_eq!(place.ok("certify ellipse.svg --epsilon 0.66 --quiet"), "proved\n");
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let place = ellipse();
+    place.fails("certify ellipse.svg", 2, &["--epsilon"]);
+    place.fails("certify ellipse.svg --epsilon 0", 2, &["epsilon"]);
+    place.fails("certify ellipse.svg --epsilon 0.5 --slack 1", 2, &["slack"]);
+    place.fails("certify ellipse.svg --epsilon 0.5 -o c.svg", 2, &["svg", "json"]);
+    place.fails("certify none.svg --epsilon 0.5", 3, &["none.svg"]);
+    place.put("bad.csv", "path,segment,t,x,y\n0,0,2,1,1\n");
+    place.fails("certify ellipse.svg --samples bad.csv --epsilon 0.5", 3, &["bad.csv", "line 2"]);
+    place.put("off.csv", "path,segment,t,x,y\n0,0,0.5,1,1\n");
+    place.fails("certify ellipse.svg --samples off.csv --epsilon 0.5 --quiet", 1, &["line 2", "not on the curve"]);
+}

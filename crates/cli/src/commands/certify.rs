@@ -13,8 +13,7 @@ use crate::summary::{Summary, count};
 
 /// Judges samples: proved, refuted or unknown.
 pub(crate) fn run(args: &CertifyArgs) -> Result<(), Failure> {
-    let target =
-        args.output.as_deref().map(|output| Target::new(Some(output), Some("json"), &[Format::Json])).transpose()?;
+    let target = args.output.as_deref().map(|output| Target::new(Some(output), None, &[Format::Json])).transpose()?;
     let options = args.model.check()?;
     let slack = args.check()?;
     if args.input.file == "-" && args.samples.as_deref() == Some("-") {

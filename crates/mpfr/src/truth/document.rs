@@ -56,6 +56,9 @@ pub fn others() -> String {
             Kind::Encloses(how) => {
                 let _ = writeln!(out, "| `{}` | encloses the exact result, {how} |", entry.function);
             }
+            Kind::Bounded(how) => {
+                let _ = writeln!(out, "| `{}` | {how} |", entry.function);
+            }
             Kind::Measured(_) => {}
         }
     }

@@ -35,8 +35,11 @@ pub enum Kind {
     Exact(&'static str),
     /// Whatever is computed is computed by the function of this name, which has an entry of its own.
     Through(&'static str),
-    /// The result encloses the exact one; by how much it is wider is the word. Judged by `tests/interval.rs`.
+    /// The result encloses the exact one; by how much it is wider is the word. Judged by `tests/interval.rs` for
+    /// `Interval` and `Directed`, by proof for what is built on them (`docs/certificates.md`).
     Encloses(&'static str),
+    /// An error of another kind than rounding, or one that is not measured; the words say which.
+    Bounded(&'static str),
     /// Rounded, and measured.
     Measured(Measured),
 }

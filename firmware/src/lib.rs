@@ -240,6 +240,9 @@ pub fn sampling_options(options: &JobOptions) -> SamplingOptions<f32> {
     }
 }
 
+/// Turns of the sampler in one call, in the images: at most five look-ups of lfs.
+pub const TURNS: u32 = 4;
+
 /// Computes lfs of a received job and draws it. `budget` is the number of turns of a call of the sampler.
 ///
 /// # Errors

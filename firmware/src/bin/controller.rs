@@ -180,7 +180,7 @@ mod chip {
                 Channel { console, pen: pen_file, words: [0; WORDS], used: 0, from: 0, worst: [0; 4], total: [0; 4] };
             paint();
             // SAFETY: the only call.
-            let done = unsafe { board::job(bytes, 8, &mut channel) };
+            let done = unsafe { board::job(bytes, TURNS, &mut channel) };
             let deep = depth();
             channel.flush();
             match done {

@@ -64,7 +64,7 @@ fn main() {
             blocks: &mut vec![Default::default(); BLOCKS],
             boxes: &mut vec![Default::default(); BOXES],
         };
-        draw(&received, &curve, medial, 8, &mut print)
+        draw(&received, &curve, medial, TURNS, &mut print)
     });
     if let Some(name) = pen
         && let Err(error) = std::fs::write(&name, &print.pen)

@@ -43,7 +43,7 @@ mod chip {
         let mut bytes = core::iter::from_fn(|| Some(unsafe { PORT.read_volatile() } as u8));
         loop {
             // SAFETY: the only call.
-            let done = unsafe { super::board::job(&mut bytes, 8, &mut Motors) };
+            let done = unsafe { super::board::job(&mut bytes, TURNS, &mut Motors) };
             put(done.map_or_else(|fault| fault.code(), |_| 0));
         }
     }

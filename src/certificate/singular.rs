@@ -2,7 +2,7 @@
 //!
 //! Around a corner, crossing, T-junction or retracted handle the floored condition allows |p−s| < floor on the *stretch* of the
 //! path where ε·lfs is below that floor. That p lies on such a stretch is a claim of its own, and is proved: at the singular
-//! place M comes as near as [`Place::distance`] says, and from there [`march`] goes along the path in both directions as long
+//! place M comes as near as [`Place::distance`] says, and from there `march` goes along the path in both directions as long
 //! as an upper bound of lfs stays below floor/ε. Upper bounds are |p−x| plus what M is away from x, and those of the medial
 //! points that stand on p itself. What is listed is never longer than the true stretch.
 //!

@@ -257,7 +257,7 @@ mod tests {
             match state % 17 {
                 0 => 0.0,
                 1 => m * f64::MIN_POSITIVE,
-                _ => m * ((state >> 5) as i32 % 60).pow(3).unsigned_abs() as f64 * 1e-3,
+                _ => m * ((state >> 5) % 60).pow(3) as f64 * 1e-3,
             }
         };
         for _ in 0..200_000 {

@@ -61,7 +61,7 @@ impl Drawn {
     /// Nodes samples. Rows are by path, as many as there are paths.
     ///
     /// # Errors
-    /// Those of [`node`].
+    /// Those of [`node()`].
     pub fn new(
         paths: &[DrawingPath],
         samples: &[PathRows<SampleRow>],

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::door::DoorOptions;
-use feature_sampling::geometry::{Aabb, Point};
+use feature_sampling::geometry::{Aabb, Point, Vector};
 use feature_sampling::medial::Resolution;
 use feature_sampling::model::{CurveModel, MedialModel};
 use feature_sampling::sampling::{Condition, SamplingOptions};
@@ -193,5 +193,30 @@ fn bent_triangles_do_not_fold() {
             assert!(bent.triangles >= 2 * drawn.edges.len(), "{name}: both sides of each line");
             assert_eq!(bent.folded, [0_usize; 0], "{name} at {epsilon}, of {}", bent.triangles);
         }
+    }
+    // And the check is able to say no: where a sixth of a circle is one line, its arc may leave a corner of the triangle
+    // beyond the other side, as the circle's tangents tell.
+    let drawing = text(r#"<circle cx="0" cy="0" r="10"/><path d="M8.4 4.3L7.9 5.1" fill="none"/>"#);
+    let (drawn, _) = drawn(&drawing, &Sampling { epsilon: 1.0, least: Some(0.35), most: None });
+    let outcome = mesh(&drawn.lines(), &drawn.frame, &Options { min_angle: 0.0, ..Options::default() });
+    let flat = outcome.expect("noded").mesh;
+    let bent = bend(&flat, &drawn, &drawing.paths);
+    assert!(!bent.folded.is_empty(), "far too few samples");
+    for &triangle in &bent.folded {
+        let corners = flat.triangles[triangle].map(|v| flat.points[v as usize]);
+        let on_circle = |p: &Point<f64>| (p.x.hypot(p.y) - 10.0).abs() < 0.05;
+        let leaves = |a: &Point<f64>, b: &Point<f64>, c: &Point<f64>| {
+            let (along, side) = (b.minus(a), c.minus(a));
+            let mut tangent = Vector::new(-a.y, a.x);
+            if tangent.dot(&along) < 0.0 {
+                tangent = tangent.opposite();
+            }
+            side.cross(&tangent) * side.cross(&along) <= 0.0
+        };
+        let beyond = (0..6).any(|k| {
+            let [a, b, c] = [k % 3, (k + 1 + k / 3) % 3, (k + 2 - k / 3) % 3].map(|i| &corners[i]);
+            on_circle(a) && on_circle(b) && leaves(a, b, c)
+        });
+        assert!(beyond, "{corners:?}");
     }
 }

@@ -257,7 +257,10 @@ mod tests {
                 ("display", "none", true)
             ]
         );
-        assert_eq!(pairs("nonsense; =; clip:url(data:x;display:none); display:inline"), [("display", "inline", false)]);
+        assert_eq!(
+            pairs("nonsense; =; fill:url(data:x;display:none); display:inline"),
+            [("fill", "url(data:x;display:none)", false), ("display", "inline", false)]
+        );
         assert_eq!(pairs("font-family:'a;display:none';stroke:red"), [("stroke", "red", false)]);
         assert_eq!(pairs(""), []);
     }

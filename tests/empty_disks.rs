@@ -1,0 +1,128 @@
+//! The heart of the certificates: where an emptiness proof or an upper bound of radii is given, plain points must agree.
+//!
+//! A verdict can be right although the proof behind it is void, because the searches that propose bounds are good. So the proofs
+//! are asked here directly, with radii that are too large as often as not.
+
+use feature_sampling::bezier::Cubic;
+use feature_sampling::curve::door::DoorOptions;
+use feature_sampling::curve::{CurveParam, ideal};
+use feature_sampling::geometry::{Point, Vector};
+use feature_sampling::medial::cell::FootSpan;
+use feature_sampling::medial::clear::{Scene, Stretch, clears, reaches};
+use feature_sampling::medial::disk::tangent_disk;
+use feature_sampling::medial::{Foot, Side};
+use feature_sampling::model::CurveModel;
+
+/// Numbers from 0 to 1, the same every time.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn below(&mut self, n: u32) -> u32 {
+        #[allow(clippy::cast_possible_truncation, reason = "below n")]
+        let k = (self.unit() * f64::from(n)) as u32;
+        k
+    }
+
+    /// A short or a long piece of [0, 1], now and then up to an end.
+    fn span(&mut self) -> [f64; 2] {
+        let length = [0.5, 0.1, 0.01, 1e-3][self.below(4) as usize];
+        let from = self.unit() * (1.0 - length);
+        match self.below(6) {
+            0 => [0.0, length],
+            1 => [1.0 - length, 1.0],
+            _ => [from, from + length],
+        }
+    }
+}
+
+/// Three cubics in a row with a smooth joint between the first two, and a stroke of its own: all that forms tell apart.
+fn strokes(random: &mut Random) -> CurveModel<f64> {
+    let mut point = || Point::new(10.0 * random.unit(), 10.0 * random.unit());
+    let (a, b, c, d) = (point(), point(), point(), point());
+    let ahead = d.minus(&c);
+    let (f, g, h) = (point(), point(), point());
+    let e = Point::new(d.x + 0.7 * ahead.x, d.y + 0.7 * ahead.y);
+    let row = [Cubic::new(a, b, c, d), Cubic::new(d, e, f, g), Cubic::new(g, point(), point(), h)];
+    let other = [Cubic::new(point(), point(), point(), point())];
+    CurveModel::new(&[(false, &row), (false, &other)], &DoorOptions::default()).expect("a curve")
+}
+
+#[test]
+fn proofs_agree_with_plain_points() {
+    let mut random = Random(1);
+    // Own segment, across a smooth joint, anything else: how often a disk was proved empty, and was plainly not.
+    let mut counts = [[0_u32; 2]; 3];
+    for _ in 0..150 {
+        let model = strokes(&mut random);
+        let curve = model.curve();
+        let mut coefficients = Vec::new();
+        ideal::coefficients(&curve, &mut coefficients).expect("a vector");
+        let scene = Scene { curve: &curve, ideal: &coefficients };
+        for _ in 0..60 {
+            let side = if random.below(2) == 0 { Side::Left } else { Side::Right };
+            let span = FootSpan::Normal { segment: random.below(4), span: random.span(), side };
+            let piece = Stretch { segment: random.below(4), span: random.span() };
+            let radius = 0.02 * 1000.0_f64.powf(random.unit());
+            let FootSpan::Normal { segment, span: [a, b], .. } = span else { continue };
+            let Some(feet) = span.feet(&scene) else { continue };
+            let proved = clears(&scene, &feet, &piece, &radius);
+            // The deepest that a plain point lies in a plain disk.
+            let own = curve.segment(segment).expect("a segment");
+            let its = curve.segment(piece.segment).expect("a segment");
+            let mut depth = f64::NEG_INFINITY;
+            for i in 0..=12 {
+                let s = a + (b - a) * f64::from(i) / 12.0;
+                let (f, left) = (own.point(&s), own.tangent(&s).left());
+                let d: Vector<f64> = if side == Side::Left { left } else { left.opposite() };
+                let centre = Point::new(f.x + radius * d.x, f.y + radius * d.y);
+                for k in 0..=40 {
+                    let t = piece.span[0] + (piece.span[1] - piece.span[0]) * f64::from(k) / 40.0;
+                    depth = depth.max(radius - its.point(&t).distance(&centre));
+                }
+            }
+            let inside = depth > 1e-9 * (radius + 10.0);
+            assert!(!(proved && inside), "{segment} {:?} {piece:?} {radius}: {depth}", [a, b]);
+            let form = match (segment, piece.segment) {
+                (s, q) if s == q => 0,
+                (0, 1) | (1, 0) => 1,
+                _ => 2,
+            };
+            counts[form][0] += u32::from(proved);
+            counts[form][1] += u32::from(inside);
+        }
+    }
+    for [proved, inside] in counts {
+        assert!(proved > 100 && inside > 100, "both happen, often: {counts:?}");
+    }
+}
+
+#[test]
+fn upper_bounds_are_above_plain_radii() {
+    let mut random = Random(2);
+    let mut finite = 0_u32;
+    for _ in 0..150 {
+        let model = strokes(&mut random);
+        let curve = model.curve();
+        let mut coefficients = Vec::new();
+        ideal::coefficients(&curve, &mut coefficients).expect("a vector");
+        let scene = Scene { curve: &curve, ideal: &coefficients };
+        for _ in 0..40 {
+            let side = if random.below(2) == 0 { Side::Left } else { Side::Right };
+            let (segment, [a, b]) = (random.below(4), random.span());
+            let Some(feet) = (FootSpan::Normal { segment, span: [a, b], side }).feet(&scene) else { continue };
+            let upper = reaches(&scene, &feet, random.below(4), &random.unit());
+            finite += u32::from(upper.is_finite());
+            for i in 0..=8 {
+                let at = CurveParam { segment, t: a + (b - a) * f64::from(i) / 8.0 };
+                let radius = Foot::normal(&curve, at, side).map_or(0.0, |foot| tangent_disk(&curve, &foot).radius);
+                assert!(radius <= upper * (1.0 + 1e-9) + 1e-9, "{at:?}: {radius} above {upper}");
+            }
+        }
+    }
+    assert!(finite > 300, "{finite} say something");
+}

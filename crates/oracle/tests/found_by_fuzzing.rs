@@ -4,7 +4,7 @@ use feature_sampling::bezier::Cubic;
 use feature_sampling::bezier::nearest::nearest;
 use feature_sampling::geometry::Point;
 use fsample_oracle::closest::Closest;
-use fsample_oracle::property::{check_roots, document};
+use fsample_oracle::property::{check_closest, check_roots, document};
 use fsample_oracle::solve::{Ask, solve};
 
 /// The reversed polynomial was given up as noise on the lower quarter of a piece: a cluster of three where p is 1e15 times
@@ -77,4 +77,17 @@ fn a_query_beside_the_end_of_a_retracted_handle() {
 #[test]
 fn a_line_break_in_a_style_sheet_stays_out_of_the_warning() {
     document(b"!<style>a>\nb[c]{stroke:red}</style><path d='M0 0L1 1'/>");
+}
+
+/// No fault of the closest point: seen from 9e11 away all points of the curve are equally far in doubles. The property asked
+/// for a stationary parameter all the same.
+#[test]
+fn a_query_so_far_away_that_all_points_are_level() {
+    let cubic = Cubic::new(
+        Point::new(-2.337401384030771e-10, -3.3735366301441193),
+        Point::new(9.912055258689082e-8, 31655.472100153704),
+        Point::new(-0.0016316728112786454, -0.0006994095543232808),
+        Point::new(2.3283064365386963e-10, 2.3283064365386963e-10),
+    );
+    check_closest(&cubic, &Point::new(-921400391520.5728, -0.4819350648426135), 0.0, 1.0);
 }

@@ -95,6 +95,16 @@ impl<S: Scalar> Cubic<S> {
         (Self::new(p0, q0, r0, b.clone()), Self::new(b, r1, q2, p3))
     }
 
+    /// The part between two parameters, `from` below `to`, as a cubic of its own; ends at 0 and 1 stay to the bit.
+    pub fn part(&self, from: &S, to: &S) -> Self {
+        let (_, right) = self.split_at(from);
+        if *from >= S::one() {
+            return right;
+        }
+        let inner = (to.clone() - from) / &(S::one() - from);
+        if inner >= S::one() { right } else { right.split_at(&inner).0 }
+    }
+
     /// Moves one end (side 0 or 1) to a point and its handle along with it, so that the tangent there stays what it was.
     pub fn move_end(&mut self, side: usize, to: Point<S>) {
         let [a, b, c, d] = &mut self.points;

@@ -71,16 +71,6 @@ where
     Ok(judge.verdict)
 }
 
-/// The piece of a cubic between two parameters.
-pub(super) fn part<S: Directed>(cubic: &Cubic<S>, a: &S, b: &S) -> Cubic<S> {
-    let (_, right) = cubic.split_at(a);
-    if *a >= S::one() {
-        return right;
-    }
-    let inner = (b.clone() - a) / &(S::one() - a);
-    if inner >= S::one() { right } else { right.split_at(&inner).0 }
-}
-
 struct Judge<'j, 'b, S, B, P, C> {
     band: &'j mut Band<'b, S, B>,
     samples: &'j [Placed<S>],
@@ -164,7 +154,7 @@ where
 
     /// A piece in plain numbers.
     fn shape(&self, cubic: &Cubic<S>, span: &[S; 2], neighbours: [Option<u32>; 2]) -> Option<Shape<S>> {
-        let piece = part(cubic, &span[0], &span[1]);
+        let piece = cubic.part(&span[0], &span[1]);
         let farthest = |p: &Point<S>| piece.points.iter().map(|c| c.distance(p)).fold(S::zero(), S::max);
         let middle = piece.points[0].middle(&piece.points[3]).middle(&piece.points[1].middle(&piece.points[2]));
         let half = farthest(&middle);

@@ -215,7 +215,7 @@ where
 
 /// A point near the middle of a piece and a bound of the distance of all of it.
 fn middle_of<S: Directed>(cubic: &crate::bezier::Cubic<S>, a: &S, b: &S) -> (Point<S>, S) {
-    let piece = super::condition::part(cubic, a, b);
+    let piece = cubic.part(a, b);
     let [p0, p1, p2, p3] = &piece.points;
     let middle = p0.middle(p3).middle(&p1.middle(p2));
     let half = piece.points.iter().map(|c| c.distance(&middle)).fold(S::zero(), S::max);

@@ -91,13 +91,7 @@ impl<S: Scalar> Arc<S> {
     /// A box around the arc: of its own control points.
     pub fn bounds(&self, segment: &Segment<S>) -> Aabb<S> {
         let [from, to] = &self.span;
-        let (_, right) = segment.cubic.split_at(from);
-        if *from >= S::one() {
-            return right.control_box();
-        }
-        let inner = (to.clone() - from) / &(S::one() - from);
-        let (piece, _) = right.split_at(&inner);
-        piece.control_box()
+        segment.cubic.part(from, to).control_box()
     }
 
     /// The part of its parameters in which the signs of derivatives mean something: all but the last √u beside a retracted

@@ -1,14 +1,16 @@
 //! Where the curve touches itself: crossings, T-junctions, overlaps.
 //!
-//! A stretch of curve of length h can meet another, non-local one only if that one comes nearer to its middle than h: so arcs
-//! are halved while something non-local is within reach, and what is left at the smallest size touches. No pair of pieces
-//! is looked at twice, and the cost is that of O(log) closest-point searches a contact.
+//! A stretch of curve of length h can meet another, non-local one only if that one comes nearer to its middle than h, and not
+//! if a line parts the two ([`super::apart`]): so arcs are halved while something non-local may touch, and what is left at the
+//! smallest size does. The cost is that of O(log) closest-point searches a contact, and of √(κ/g) for each length along which
+//! strokes of curvature κ run side by side with a gap g.
 //!
 //! A contact is an interval of parameters, since strokes can coincide along a stretch: straight ones are recognised as a
 //! whole, curved ones at a hundred-thousandth of the diagonal. Touching means: nearer than
 //! [`reach`], a billionth of the diagonal (or a few roundoffs, where the scalar has fewer bits).
 
-use super::nearest::{Locality, nearest_beside, nearest_non_local};
+use super::apart::Stretch;
+use super::nearest::{Locality, nearest_beside, nearest_non_local, nearest_on_arc};
 use super::{Arc, Curve, CurveParam, JointKind, Segment};
 use crate::buffer::{BufferFull, Keep, Store};
 use crate::scalar::Scalar;
@@ -74,11 +76,15 @@ impl<S: Scalar> Finder<'_, '_, S> {
             let (a, b) = (segment.point(&from), segment.point(&to));
             let length = a.distance(&b);
             // An arc of at most 30° is less than 1.05 chords long, so half of it is within 0.55 chords of its middle.
-            let near = self.other(segment, arc, &middle, &(length.clone() * &S::ratio(3, 4) + &self.reach));
-            let Some(near) = near else {
+            let within = length.clone() * &S::ratio(3, 4) + &self.reach;
+            let Some(near) = self.other(segment, arc, &middle, &within) else {
                 from = to;
                 continue;
             };
+            if self.clear(segment, arc, [&from, &middle, &to], &within) {
+                from = to;
+                continue;
+            }
             if length <= self.coarse && self.apart(segment, arc, [&from, &middle, &to], &length) {
                 from = to;
                 continue;
@@ -122,6 +128,32 @@ impl<S: Scalar> Finder<'_, '_, S> {
         });
         let (Some(a), Some(b)) = (a, b) else { return false };
         a.at.segment == b.at.segment && self.curve.segment(a.at.segment).is_some_and(straight)
+    }
+
+    /// Nothing that is not local to some point of the stretch comes near enough to touch it: each arc within reach of the
+    /// stretch is parted from it by a line.
+    fn clear(&self, segment: &Segment<S>, arc: &Arc<S>, [from, middle, to]: [&S; 3], within: &S) -> bool {
+        let Some(stretch) = Stretch::new(segment, from, to) else { return false };
+        let own = [from, to].map(|t| Locality::on_arc(segment, arc, t));
+        let centre = segment.point(middle);
+        // What touches at the smallest size is within 7/4 of `reach` of some middle.
+        let limit = (within.clone() + &self.reach).square();
+        let margin = self.reach.clone().twice() + self.curve.noise;
+        let mut clear = true;
+        self.curve.hierarchy().traverse(
+            &centre,
+            &mut clear,
+            |clear, bounds| *clear && bounds.distance_sq(&centre) < limit,
+            |clear, leaf, _| {
+                *clear = self.curve.arcs_in(leaf).all(|(_, other)| {
+                    let Some(its) = self.curve.segment(other.segment) else { return true };
+                    own.iter().all(|l| l.holds(its, other))
+                        || stretch.clear_of(its, other, &margin)
+                        || nearest_on_arc(its, other, &centre).distance_sq >= limit
+                });
+            },
+        );
+        clear
     }
 
     /// A single other stroke runs beside this stretch without touching it, as strokes do where they leave a cusp.

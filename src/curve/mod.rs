@@ -11,6 +11,7 @@
 //!   *local* to each other if less than about one radian of turning lies between them on one strand: such a stretch cannot
 //!   come back to itself, so only non-local pieces can come near ([`nearest`], [`contact`]).
 
+mod apart;
 pub mod arc;
 pub mod contact;
 pub mod door;

@@ -1,0 +1,56 @@
+//! Where a curve touches itself: outlines that nearly coincide, and plain crossings.
+
+mod common;
+
+use common::{Stroke, curve_model, ellipse, mapped, polygon, pt};
+use feature_sampling::curve::contact::{Contact, place, reach};
+use feature_sampling::curve::door::DoorOptions;
+use feature_sampling::model::CurveModel;
+
+fn model(strokes: &[Stroke]) -> CurveModel<f64> {
+    curve_model(strokes, &DoorOptions::default())
+}
+
+/// A clock, a gesture and a balloon of public icon sets took half a minute each, while strokes were told apart a
+/// hundred-thousandth of the diagonal at a time.
+#[test]
+fn outlines_a_millionth_apart_do_not_touch() {
+    for gap in [1e-3, 1e-6, 1e-7] {
+        let inner = ellipse(0.0, 0.0, 3.0, 2.0);
+        let outer = ellipse(0.0, 0.0, 3.0 * (1.0 + gap), 2.0 * (1.0 + gap));
+        assert_eq!(model(&[inner, outer]).contacts(), [], "gap {gap}");
+    }
+}
+
+#[test]
+fn crossings_are_found_where_they_are() {
+    // By symmetry the two ellipses cross on the diagonals; the cubics are symmetric too.
+    let strokes = [ellipse(0.0, 0.0, 3.0, 2.0), ellipse(0.0, 0.0, 2.0, 3.0)];
+    for angle in [0.0_f64, 0.7] {
+        let (sin, cos) = angle.sin_cos();
+        let turned = mapped(&strokes, |p| pt(cos * p.x - sin * p.y, sin * p.x + cos * p.y));
+        let model = model(&turned);
+        let curve = model.curve();
+        assert_eq!(model.contacts().len(), 8, "four crossings, on either stroke");
+        for contact in model.contacts() {
+            let p = curve.point(&place(contact)).expect("a place on the curve");
+            let (x, y) = (cos * p.x + sin * p.y, cos * p.y - sin * p.x);
+            assert!((x.abs() - y.abs()).abs() <= 4.0 * reach(&curve), "({x}, {y}) is off the diagonal");
+        }
+    }
+}
+
+/// {n/k} has n(k − 1) crossings.
+#[test]
+fn a_star_polygon_crosses_itself_as_often_as_it_should() {
+    for (n, k) in [(7, 2), (7, 3), (24, 7)] {
+        let corner = |i: usize| {
+            let angle = std::f64::consts::TAU * (i * k % n) as f64 / n as f64;
+            [angle.cos(), angle.sin()]
+        };
+        let corners: Vec<_> = (0..n).map(corner).collect();
+        let model = model(&[polygon(true, &corners)]);
+        let inner = |c: &&Contact<f64>| c.span[0] > 1e-6 && c.span[1] < 1.0 - 1e-6;
+        assert_eq!(model.contacts().iter().filter(inner).count(), 2 * n * (k - 1), "{{{n}/{k}}}");
+    }
+}

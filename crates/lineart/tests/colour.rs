@@ -1,6 +1,10 @@
 //! Colouring: shapes whose answer is known, under every gap, scale, rotation and order of hints; and outlines against a
 //! raster flood fill that knows nothing of triangles.
 
+#[path = "common/strokes.rs"]
+#[expect(dead_code, reason = "the judge of noding stays unused here")]
+mod strokes;
+
 use feature_sampling::bezier::Cubic;
 use feature_sampling::geometry::{Aabb, Point};
 use lineart::colour::{
@@ -324,6 +328,60 @@ fn outlines_agree_with_a_flood_of_pixels() {
         let share = f64::from(u32::try_from(both).expect("small")) / f64::from(u32::try_from(either).expect("small"));
         assert!(share > 0.999, "intersection over union {share}");
         assert!(either > 10_000, "something was filled");
+    }
+}
+
+/// Every point lies in the outlines of one region and no more, wherever strokes cross, end on each other or lie on each
+/// other.
+#[test]
+fn outlines_part_the_plane() {
+    let mut asked = 0;
+    for kind in 0..strokes::KINDS.len() {
+        for seed in 0..8 {
+            let (paths, chains) = strokes::strokes(kind, seed);
+            let options = Options { unlabelled: Unlabelled::Auto, ..Options::default() };
+            let painting = colour(&paths, &chains, &pitch(&paths), &[], &options).expect("coloured");
+            let regions: Vec<_> = painting.regions.iter().map(|region| polygons(&region.outlines)).collect();
+            let curves: Vec<Point<f64>> = paths
+                .iter()
+                .flat_map(|path| &path.cubics)
+                .flat_map(|cubic| (0..=500).map(|i| cubic.eval(&(f64::from(i) / 500.0))))
+                .collect();
+            let mut random = strokes::Random(seed);
+            for _ in 0..400 {
+                let p = Point::new(1.5 * random.unit() - 0.25, 1.5 * random.unit() - 0.25);
+                // Chords stand for curves here.
+                if curves.iter().any(|q| p.distance(q) < 0.004) {
+                    continue;
+                }
+                let around = regions.iter().filter(|polygons| fills(polygons, p.x, p.y)).count();
+                assert_eq!(around, 1, "{}, seed {seed}: regions at {p:?}", strokes::KINDS[kind]);
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 8000, "{asked} points");
+}
+
+/// A straight closing is cut through by a far stroke that bulges beyond its chord: that stroke is sampled more densely.
+#[test]
+fn a_closing_stays_clear_of_bulges_from_afar() {
+    // Two walls with a door between them, and a long arc with two samples only whose middle stands in the door.
+    let paths = drawing(&["M0 0H10V4".into(), "M10 6V10H0Z".into(), "M4 -20C14 -20 14 30 4 30".into()]);
+    for per in [1, 2, 3] {
+        let painting = paint(&paths, per, &[hint(5.0, 5.0, "red"), hint(30.0, 5.0, "blue")], &Options::default());
+        let polygons: Vec<_> = painting.regions.iter().map(|region| polygons(&region.outlines)).collect();
+        for i in 0..60 {
+            for j in 0..60 {
+                let (x, y) = (f64::from(i) * 0.37 - 1.3, f64::from(j) * 0.83 - 19.7);
+                let on_curve = (0..=400)
+                    .any(|k| paths[2].cubics[0].eval(&(f64::from(k) / 400.0)).distance(&Point::new(x, y)) < 0.1);
+                if !on_curve {
+                    let around = polygons.iter().filter(|polygons| fills(polygons, x, y)).count();
+                    assert_eq!(around, 1, "{per} pieces: regions at {x} {y}");
+                }
+            }
+        }
     }
 }
 

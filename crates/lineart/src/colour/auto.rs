@@ -63,7 +63,7 @@ pub(super) fn rooms(
             }
             flood.grow(plane, &own, |_, _| true);
             let foreign = |face: &&u32| {
-                let (width, own) = (flood.width[**face as usize], widths[**face as usize]);
+                let (width, own) = (flood.width_sq(plane, **face), widths[**face as usize]);
                 let unreached = flood.source[**face as usize] == NONE;
                 unreached
                     || (own as f64 >= least

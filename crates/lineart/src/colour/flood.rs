@@ -7,7 +7,6 @@
 //! plays no role. Cost: O(n log n). Source: Parakkat, Memari, Cani, "Delaunay Painting", 2022, whose flow rule
 //! (`flow(next) = min(flow, length)`, largest flow wins) decides the same wherever flows differ.
 
-use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::plane::{NONE, Plane, Side};
@@ -17,8 +16,8 @@ use super::plane::{NONE, Plane, Side};
 pub(super) struct Flood {
     /// Number of the seed, or [`NONE`].
     pub(super) source: Vec<u32>,
-    /// Squared length of the narrowest side on the way from the seed; the largest number at seeds.
-    pub(super) width: Vec<u128>,
+    /// Rank of the narrowest side on the way from the seed; [`NONE`] at seeds.
+    width: Vec<u32>,
 }
 
 impl Flood {
@@ -27,16 +26,22 @@ impl Flood {
         Self { source: vec![NONE; count], width: vec![0; count] }
     }
 
+    /// Squared length of the narrowest side on the way from the seed; the largest number at seeds.
+    pub(super) fn width_sq(&self, plane: &Plane<'_>, face: u32) -> u128 {
+        let side = plane.by_rank.get(self.width[face as usize] as usize);
+        side.map_or(u128::MAX, |side| side_of(plane, *side).length_sq)
+    }
+
     /// Grows from seeds (a face and the number of its source) over faces that nothing has reached. `enters` may refuse a
     /// face that would be entered through a side.
     pub(super) fn grow(&mut self, plane: &Plane<'_>, seeds: &[(u32, u32)], enters: impl Fn(u32, u128) -> bool) {
         let mut heap = BinaryHeap::new();
-        let push = |heap: &mut BinaryHeap<_>, face: u32, source: u32, width: u128| {
+        let push = |heap: &mut BinaryHeap<_>, face: u32, source: u32, width: u32| {
             let f = &plane.faces[face as usize];
             for (&side, &beyond) in f.sides.iter().zip(&f.beyond) {
-                let Side { length_sq, chain } = side_of(plane, side);
+                let Side { chain, rank, .. } = side_of(plane, side);
                 if chain == NONE && beyond != NONE {
-                    heap.push((length_sq, Reverse(side), beyond, source, width));
+                    heap.push((rank, beyond, source, width));
                 }
             }
         };
@@ -44,15 +49,17 @@ impl Flood {
             let here = &mut self.source[face as usize];
             if *here == NONE {
                 *here = source;
-                self.width[face as usize] = u128::MAX;
-                push(&mut heap, face, source, u128::MAX);
+                self.width[face as usize] = NONE;
+                push(&mut heap, face, source, NONE);
             }
         }
-        while let Some((length_sq, _, face, source, width)) = heap.pop() {
-            if self.source[face as usize] != NONE || !enters(face, length_sq) {
+        while let Some((rank, face, source, width)) = heap.pop() {
+            if self.source[face as usize] != NONE
+                || !enters(face, side_of(plane, plane.by_rank[rank as usize]).length_sq)
+            {
                 continue;
             }
-            let width = width.min(length_sq);
+            let width = width.min(rank);
             self.source[face as usize] = source;
             self.width[face as usize] = width;
             push(&mut heap, face, source, width);
@@ -68,7 +75,7 @@ fn side_of(plane: &Plane<'_>, side: u32) -> Side {
 pub(super) fn widest(plane: &Plane<'_>, face: u32) -> u128 {
     let f = &plane.faces[face as usize];
     let open = |(side, beyond): (&u32, &u32)| {
-        let Side { length_sq, chain } = side_of(plane, *side);
+        let Side { length_sq, chain, .. } = side_of(plane, *side);
         (chain == NONE && *beyond != NONE).then_some(length_sq)
     };
     f.sides.iter().zip(&f.beyond).filter_map(open).max().unwrap_or(0)

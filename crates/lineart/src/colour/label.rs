@@ -247,6 +247,9 @@ impl Plane<'_> {
 
     /// Gives free regions colours of the palette, so that neighbours differ where six colours suffice; large regions first.
     fn give_palette(&self, region_of: &[u32], free: &[bool], colours: &mut [Option<Colour>]) {
+        if !free.contains(&true) {
+            return;
+        }
         let mut areas = vec![0.0; colours.len()];
         region_of.iter().zip(0..).for_each(|(region, face)| areas[*region as usize] += self.area(face));
         let mut order: Vec<usize> = (0..colours.len()).filter(|region| free[*region]).collect();

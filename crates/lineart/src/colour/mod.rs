@@ -8,7 +8,7 @@
 //! ```text
 //! plane    the noded samples, triangulated in a frame; made once for a drawing
 //! label    hints → flood (a maximum spanning forest over the faces), auto (seeds where there are no hints) → regions
-//! region   faces of one colour, their boundary loops                  outline  loops as Béziers; gaps closed
+//! region   faces of one colour, their boundary loops       closing  gaps between regions       outline  loops as Béziers
 //! ```
 //!
 //! **Samples.** In an ε-sample neighbouring samples are nearer to each other than to other strokes, so that chains are
@@ -19,6 +19,7 @@
 //! a hint.
 
 mod auto;
+mod closing;
 mod flood;
 mod hint;
 mod label;
@@ -153,7 +154,7 @@ pub fn colour(
     for round in 0..=ROUNDS {
         let plane = Plane::new(paths, &chains, node_options)?;
         let labels = plane.label(hints, options);
-        let bulges = outline::bulges(&plane, &labels.region_of);
+        let bulges = closing::bulges(&plane, &labels.region_of);
         if bulges.is_empty() || round == ROUNDS {
             return Ok(plane.finish(&labels, hints));
         }
@@ -184,7 +185,7 @@ impl Plane<'_> {
     /// Outlines and everything else that is said of regions.
     pub fn finish(&self, labels: &Labels, hints: &[Hint]) -> Painting {
         let count = labels.colours.len();
-        let closings = outline::closings(self, &labels.region_of);
+        let closings = closing::closings(self, &labels.region_of);
         let loops = region::loops(self, &labels.region_of, count);
         let mut areas = vec![0.0; count];
         labels.region_of.iter().zip(0..).for_each(|(region, face)| areas[*region as usize] += self.area(face));

@@ -2,15 +2,13 @@
 //!
 //! Consecutive steps along one path whose parameters follow each other are one run, and a run is the original cubics
 //! between its two parameters, split by de Casteljau. Runs start and end in the points of vertices, which all regions that
-//! meet there share to the bit. Between runs a gap is closed: by a cubic that continues the tangents of the stroke ends on
-//! both its sides where that crosses nothing, else by a straight line.
-
-use std::collections::HashMap;
+//! meet there share to the bit. Between runs a gap is closed (`closing`).
 
 use feature_sampling::bezier::Cubic;
-use feature_sampling::geometry::{Point, Vector};
+use feature_sampling::geometry::Point;
 
-use super::plane::{NONE, Plane};
+use super::closing::Closings;
+use super::plane::Plane;
 use super::region::Step;
 use crate::node::{Owner, Track};
 
@@ -31,9 +29,6 @@ pub struct Outline {
     /// Its pieces; the last one ends at the start.
     pub pieces: Vec<Piece>,
 }
-
-/// How gap sides are closed, by side, for all regions alike: the inner control points from the lower vertex on.
-pub(super) type Closings = HashMap<u32, [Point<f64>; 2]>;
 
 /// A step along a path.
 #[derive(Clone, Copy, Debug)]
@@ -178,135 +173,4 @@ fn curve(plane: &Plane<'_>, run: &Run) -> Vec<Cubic<f64>> {
     }
     let cubics: Vec<Cubic<f64>> = Track::new(&path.cubics).cubics(low, high).collect();
     if run.forward { cubics } else { cubics.iter().rev().map(Cubic::reversed).collect() }
-}
-
-/// Works out how the gap sides between regions are closed.
-pub(super) fn closings(plane: &Plane<'_>, region_of: &[u32]) -> Closings {
-    let mut out = Closings::new();
-    let tangents = stroke_ends(plane);
-    for (face, number) in plane.faces.iter().zip(0_u32..) {
-        for i in 0..3 {
-            let (side, beyond) = (face.sides[i], face.beyond[i]);
-            if beyond == NONE || beyond < number || plane.sides[side as usize].chain != NONE {
-                continue;
-            }
-            if region_of[number as usize] == region_of[beyond as usize] {
-                continue;
-            }
-            let [a, b] = [face.corners[i], face.corners[(i + 1) % 3]];
-            let [a, b] = [a.min(b), a.max(b)];
-            let (start, end) = (plane.point(a), plane.point(b));
-            let chord = end.minus(&start);
-            let third = chord.norm() / 3.0;
-            let handle = |vertex: u32, towards: &Vector<f64>| {
-                let smooth = tangents.get(&vertex).filter(|tangent| tangent.dot(towards) > 0.0);
-                smooth.map(|tangent| tangent.scaled(&third))
-            };
-            let (first, last) = (handle(a, &chord), handle(b, &chord.opposite()));
-            if first.is_none() && last.is_none() {
-                continue;
-            }
-            let straight = chord.scaled(&(1.0 / 3.0));
-            let controls = [start.plus(&first.unwrap_or(straight)), end.plus(&last.unwrap_or(straight.opposite()))];
-            let cubic = Cubic::new(start, controls[0], controls[1], end);
-            if is_free(plane, [number, beyond], side, &cubic) {
-                out.insert(side, controls);
-            }
-        }
-    }
-    out
-}
-
-/// Directions in which strokes would go on at their free ends.
-fn stroke_ends(plane: &Plane<'_>) -> HashMap<u32, Vector<f64>> {
-    let mut out = HashMap::new();
-    for edge in &plane.noded.edges {
-        let Some(owner) = plane.noded.owners(edge).first() else { continue };
-        let Some(path) = plane.paths.get(owner.path as usize) else { continue };
-        let track = Track::new(&path.cubics);
-        for i in 0..2 {
-            if plane.degrees[edge.ends[i] as usize] != 1 {
-                continue;
-            }
-            // Where the derivative vanishes the chord of a short stretch shows the direction.
-            let (at, other) = (owner.at[i], owner.at[1 - i]);
-            let inside = at + (other - at) * 1e-3;
-            let direction = track.eval_around(at).minus(&track.eval_around(inside));
-            if let Some(unit) = direction.unit() {
-                out.insert(edge.ends[i], unit);
-            }
-        }
-    }
-    out
-}
-
-/// A closing stays inside the two faces of its side, and away from curves that bulge into them.
-fn is_free(plane: &Plane<'_>, faces: [u32; 2], side: u32, cubic: &Cubic<f64>) -> bool {
-    const STEPS: u32 = 16;
-    let points: Vec<Point<f64>> = (0..=STEPS).map(|i| cubic.eval(&(f64::from(i) / f64::from(STEPS)))).collect();
-    let inside = |p: &Point<f64>| {
-        faces.iter().any(|&face| {
-            let corners = plane.faces[face as usize].corners.map(|v| plane.point(v));
-            (0..3).all(|i| {
-                let (a, b) = (&corners[i], &corners[(i + 1) % 3]);
-                b.minus(a).cross(&p.minus(a)) >= 0.0
-            })
-        })
-    };
-    if !points[1..STEPS as usize].iter().all(inside) {
-        return false;
-    }
-    faces.iter().all(|&face| {
-        let f = &plane.faces[face as usize];
-        f.sides.iter().filter(|other| **other != side).all(|&other| {
-            let chain = plane.sides[other as usize].chain;
-            plane
-                .noded
-                .edges
-                .get(chain as usize)
-                .is_none_or(|edge| plane.noded.owners(edge).first().is_none_or(|owner| !meets(plane, owner, &points)))
-        })
-    })
-}
-
-/// A polyline crosses a piece of curve, ends aside.
-fn meets(plane: &Plane<'_>, owner: &Owner, points: &[Point<f64>]) -> bool {
-    let Some(path) = plane.paths.get(owner.path as usize) else { return false };
-    let track = Track::new(&path.cubics);
-    const STEPS: u32 = 16;
-    let at = |i: u32| track.eval_around(owner.at[0] + (owner.at[1] - owner.at[0]) * f64::from(i) / f64::from(STEPS));
-    let curve: Vec<Point<f64>> = (0..=STEPS).map(at).collect();
-    let side = |a: &Point<f64>, b: &Point<f64>, p: &Point<f64>| b.minus(a).cross(&p.minus(a));
-    points.windows(2).any(|p| {
-        curve.windows(2).any(|q| {
-            side(&p[0], &p[1], &q[0]) * side(&p[0], &p[1], &q[1]) < 0.0
-                && side(&q[0], &q[1], &p[0]) * side(&q[0], &q[1], &p[1]) < 0.0
-        })
-    })
-}
-
-/// Pieces of paths that a straight side between two regions crosses because they bulge beyond their chords: paths and
-/// parameters where another sample is needed.
-pub(super) fn bulges(plane: &Plane<'_>, region_of: &[u32]) -> Vec<(usize, f64)> {
-    let mut out = Vec::new();
-    for (face, number) in plane.faces.iter().zip(0_u32..) {
-        for i in 0..3 {
-            let (side, beyond) = (face.sides[i], face.beyond[i]);
-            let is_gap = beyond != NONE && beyond > number && plane.sides[side as usize].chain == NONE;
-            if !is_gap || region_of[number as usize] == region_of[beyond as usize] {
-                continue;
-            }
-            let line = [plane.point(face.corners[i]), plane.point(face.corners[(i + 1) % 3])];
-            for around in [number, beyond] {
-                for &other in &plane.faces[around as usize].sides {
-                    let chain = plane.sides[other as usize].chain;
-                    let Some(edge) = plane.noded.edges.get(chain as usize) else { continue };
-                    for owner in plane.noded.owners(edge).iter().take(1).filter(|owner| meets(plane, owner, &line)) {
-                        out.push((owner.path as usize, 0.5 * (owner.at[0] + owner.at[1])));
-                    }
-                }
-            }
-        }
-    }
-    out
 }

@@ -8,14 +8,16 @@
 //! **Frame.** The box of the drawing padded on each side by 1.1 times its larger extent: edges to the frame are then
 //! longer than any edge inside the drawing, so that what is outside is connected by the widest passages there are.
 
+use std::cmp::Reverse;
 use std::collections::HashMap;
 
-use feature_sampling::geometry::Point;
+use feature_sampling::geometry::{Aabb, Point};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::ColourError;
 use crate::drawing::DrawingPath;
+use crate::node::pairs::Boxes;
 use crate::node::{Chain, Noded, Options, Track, node};
 
 /// No face, no edge.
@@ -39,6 +41,8 @@ pub(super) struct Side {
     pub(super) length_sq: u128,
     /// The edge of the graph that lies here, or [`NONE`]: colour passes.
     pub(super) chain: u32,
+    /// Its place among all sides by length, of equally long ones the higher number first.
+    pub(super) rank: u32,
 }
 
 /// A drawing, ready to be coloured.
@@ -48,6 +52,8 @@ pub struct Plane<'a> {
     pub(super) noded: Noded,
     pub(super) faces: Vec<Face>,
     pub(super) sides: Vec<Side>,
+    /// The sides by rank.
+    pub(super) by_rank: Vec<u32>,
     /// Lattice places of all vertices; those of the frame are the last four.
     pub(super) places: Vec<[i64; 2]>,
     /// The lattice's origin and unit.
@@ -58,6 +64,9 @@ pub struct Plane<'a> {
     triangulation: ConstrainedDelaunayTriangulation<Point2<f64>>,
     /// By spade's number of a face.
     numbers: Vec<u32>,
+    /// Faces beside curves with the number of the corner that their side on it starts at, and the boxes of those curves.
+    beside: Vec<(u32, usize)>,
+    curves: Boxes,
 }
 
 impl<'a> Plane<'a> {
@@ -102,14 +111,19 @@ impl<'a> Plane<'a> {
             noded,
             faces: Vec::new(),
             sides: Vec::new(),
+            by_rank: Vec::new(),
             places,
             origin: first,
             unit,
             degrees,
             triangulation,
             numbers: Vec::new(),
+            beside: Vec::new(),
+            curves: Boxes::new(Vec::new()),
         };
         plane.tabulate();
+        plane.rank();
+        plane.index_curves();
         Ok(plane)
     }
 
@@ -129,7 +143,7 @@ impl<'a> Plane<'a> {
                 let d = |i: usize| places[a as usize][i].abs_diff(places[b as usize][i]);
                 let square = |v: u64| u128::from(v) * u128::from(v);
                 let chain = by_ends.get(&[a.min(b), a.max(b)]).copied().unwrap_or(NONE);
-                Side { length_sq: square(d(0)) + square(d(1)), chain }
+                Side { length_sq: square(d(0)) + square(d(1)), chain, rank: NONE }
             })
             .collect();
         let numbers = &self.numbers;
@@ -145,6 +159,35 @@ impl<'a> Plane<'a> {
                 }
             })
             .collect();
+    }
+
+    /// Sorts the sides once, so that a flood compares whole numbers of 32 bits.
+    fn rank(&mut self) {
+        let sides = &self.sides;
+        let mut by_rank: Vec<u32> = (0..).take(sides.len()).collect();
+        by_rank.sort_unstable_by_key(|&side| (sides[side as usize].length_sq, Reverse(side)));
+        for (&side, rank) in by_rank.iter().zip(0..) {
+            self.sides[side as usize].rank = rank;
+        }
+        self.by_rank = by_rank;
+    }
+
+    fn index_curves(&mut self) {
+        let mut boxes = Vec::new();
+        for (face, number) in self.faces.iter().zip(0_u32..) {
+            for (i, side) in face.sides.iter().enumerate() {
+                let chain = self.sides[*side as usize].chain;
+                let Some(edge) = self.noded.edges.get(chain as usize) else { continue };
+                let Some(owner) = self.noded.owners(edge).first() else { continue };
+                let Some(path) = self.paths.get(owner.path as usize) else { continue };
+                let (low, high) = (owner.at[0].min(owner.at[1]), owner.at[0].max(owner.at[1]));
+                let mut bounds = Aabb::empty();
+                Track::new(&path.cubics).cubics(low, high).for_each(|cubic| bounds.merge(&cubic.control_box()));
+                self.beside.push((number, i));
+                boxes.push(bounds);
+            }
+        }
+        self.curves = Boxes::new(boxes);
     }
 
     /// The point of a vertex, in user units.
@@ -198,35 +241,41 @@ impl<'a> Plane<'a> {
         self.beyond_bulge(p).unwrap_or(face)
     }
 
-    /// If a point lies between a piece of curve and its chord: the face on the chord's other side.
+    /// If a point lies between a piece of curve and its chord: the face on the chord's other side, of several the one with
+    /// the smallest number.
     fn beyond_bulge(&self, p: &Point<f64>) -> Option<u32> {
-        for (face, number) in self.faces.iter().zip(0_u32..) {
-            for i in 0..3 {
-                let chain = self.sides[face.sides[i] as usize].chain;
-                let Some(edge) = self.noded.edges.get(chain as usize) else { continue };
-                let [a, b] = [face.corners[i], face.corners[(i + 1) % 3]];
-                let (start, end) = (self.point(a), self.point(b));
-                let chord = end.minus(&start);
-                let v = p.minus(&start);
-                // Faces lie to the left of their sides: a point to the right is a candidate, near enough to be in a bulge.
-                let (along, across) = (chord.dot(&v) / chord.norm_sq(), chord.cross(&v) / chord.norm_sq());
-                if !((-0.5..=1.5).contains(&along) && (-1.0..0.0).contains(&across)) {
-                    continue;
-                }
-                let Some(owner) = self.noded.owners(edge).first() else { continue };
-                let Some(path) = self.paths.get(owner.path as usize) else { continue };
-                let track = Track::new(&path.cubics);
-                let (low, high) = (owner.at[0].min(owner.at[1]), owner.at[0].max(owner.at[1]));
-                const STEPS: u32 = 64;
-                let at = |step: u32| track.eval(low + (high - low) * f64::from(step) / f64::from(STEPS));
-                let mut polygon: Vec<Point<f64>> = (0..=STEPS).map(at).collect();
-                polygon.dedup();
-                if winding(&polygon, p) {
-                    return Some(number);
-                }
+        let mut best: Option<u32> = None;
+        self.curves.around(p, |i| {
+            let (number, corner) = self.beside[i as usize];
+            if best.is_none_or(|best| number < best) && self.is_in_bulge(number, corner, p) {
+                best = Some(number);
             }
+        });
+        best
+    }
+
+    /// A point lies between the curve and the chord of a face's side, outside of the face.
+    fn is_in_bulge(&self, face: u32, corner: usize, p: &Point<f64>) -> bool {
+        let face = &self.faces[face as usize];
+        let chain = self.sides[face.sides[corner] as usize].chain;
+        let Some(edge) = self.noded.edges.get(chain as usize) else { return false };
+        let (start, end) = (self.point(face.corners[corner]), self.point(face.corners[(corner + 1) % 3]));
+        let chord = end.minus(&start);
+        let v = p.minus(&start);
+        // Faces lie to the left of their sides: a point to the right is a candidate, near enough to be in a bulge.
+        let (along, across) = (chord.dot(&v) / chord.norm_sq(), chord.cross(&v) / chord.norm_sq());
+        if !((-0.5..=1.5).contains(&along) && (-1.0..0.0).contains(&across)) {
+            return false;
         }
-        None
+        let Some(owner) = self.noded.owners(edge).first() else { return false };
+        let Some(path) = self.paths.get(owner.path as usize) else { return false };
+        let track = Track::new(&path.cubics);
+        let (low, high) = (owner.at[0].min(owner.at[1]), owner.at[0].max(owner.at[1]));
+        const STEPS: u32 = 64;
+        let at = |step: u32| track.eval(low + (high - low) * f64::from(step) / f64::from(STEPS));
+        let mut polygon: Vec<Point<f64>> = (0..=STEPS).map(at).collect();
+        polygon.dedup();
+        winding(&polygon, p)
     }
 }
 

@@ -39,7 +39,7 @@
 mod cluster;
 mod lattice;
 mod meet;
-mod pairs;
+pub(crate) mod pairs;
 mod track;
 
 use std::fmt;

@@ -509,7 +509,7 @@ pub(crate) struct TriangleArgs {
     /// Smallest angle, in degrees, up to 33; beyond 20.7 it may take the limit of --max-vertices to end
     #[arg(long, value_name = "DEG", default_value_t = mesh::DEFAULT_MIN_ANGLE, allow_negative_numbers = true)]
     pub(crate) min_angle: f64,
-    /// Small triangles at small features, growing with the distance from them
+    /// Small triangles at small features, at ends and at corners, growing with the distance from them
     #[arg(long)]
     pub(crate) graded: bool,
     /// Move vertices inside to more even places, N times over, where no bound breaks

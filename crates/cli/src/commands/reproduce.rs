@@ -109,8 +109,9 @@ fn figure6(args: &ReproduceArgs, curves: &[Source]) -> Result<Figure6, Failure> 
 fn meshed(args: &ReproduceArgs, curves: &[Source]) -> Result<Vec<Source>, Failure> {
     let mut sources = if args.curve.is_empty() { Vec::new() } else { curves.to_vec() };
     for (name, text) in [ALL_SHIPPED[3], ALL_SHIPPED[1], ALL_SHIPPED[4], ALL_SHIPPED[6], ALL_SHIPPED[5]] {
-        if sources.len() < 5 {
-            sources.push(shipped(name, text)?);
+        let source = shipped(name, text)?;
+        if sources.len() < 5 && sources.iter().all(|given| given.name != source.name) {
+            sources.push(source);
         }
     }
     Ok(sources)

@@ -12,6 +12,7 @@ use feature_sampling::geometry::{Aabb, Point};
 use feature_sampling::model::{CurveModel, MedialModel};
 use feature_sampling::sampling::{SamplingError, SamplingOptions};
 
+use super::opening;
 use super::size::{Graded, Size, Wish};
 use super::{Lines, Mesh};
 use crate::drawing::DrawingPath;
@@ -24,12 +25,16 @@ pub const PADDING: f64 = 0.1;
 /// But no less than this share of its diagonal: a single straight stroke has no height.
 const LEAST_PADDING: f64 = 0.03;
 
-/// What lfs counts in graded sizes: a triangle at a sample may be as large as its lfs, times this. With half of it the
-/// error of the Poisson problem falls less than the triangles grow; found by experiment (`fsample reproduce figure10`).
-pub const GRADED_SHARE: f64 = 1.0;
+/// What lfs counts in graded sizes: a triangle at a sample may be as large as its lfs, times this. Less makes triangles
+/// that the error of the Poisson problem does not repay; found by experiment (`fsample reproduce figure10`).
+pub const GRADED_SHARE: f64 = 4.0;
 
 /// What a unit of distance adds to graded sizes.
-pub const GRADED_GROWTH: f64 = 0.5;
+pub const GRADED_GROWTH: f64 = 1.0;
+
+/// The length c of graded sizes at ends and corners, in diagonals of the rectangle: an end of a stroke asks for d²/c. Larger
+/// ones gain on drawings with few ends and lose on those with many; found by experiment, as above.
+pub const GRADED_SCALE: f64 = 1.0 / 12.0;
 
 /// How lines are noded for meshing: the pitch is a hundred-thousandth of the diagonal, or a hundredth of the smallest distance
 /// of samples if that is more. Ten times the noder's own default: between two strokes that run beside each other at a pitch,
@@ -100,15 +105,12 @@ impl Drawn {
         self.owners.iter().map(|owner| owner.path).collect()
     }
 
-    /// The graded size: [`GRADED_SHARE`] and [`GRADED_GROWTH`], nowhere above `largest`.
+    /// The graded size, nowhere above `largest`: by lfs ([`GRADED_SHARE`]), by ends and corners ([`GRADED_SCALE`]), and by
+    /// the distance from both ([`GRADED_GROWTH`]).
     pub fn graded(&self, largest: f64) -> Size {
-        self.graded_by(largest, GRADED_SHARE, GRADED_GROWTH)
-    }
-
-    /// The graded size with other factors of lfs and of distance.
-    pub fn graded_by(&self, largest: f64, share: f64, growth: f64) -> Size {
-        let wish = |wish: &Wish| Wish { size: share * wish.size, ..*wish };
-        Size::Graded(Graded::new(self.wishes.iter().map(wish).collect(), largest, growth))
+        let mut wishes = opening::wishes(&self.points, &self.edges, largest, GRADED_SCALE * self.frame.extent().norm());
+        wishes.extend(self.wishes.iter().map(|wish| Wish { size: GRADED_SHARE * wish.size, ..*wish }));
+        Size::Graded(Graded::new(wishes, largest, GRADED_GROWTH))
     }
 
     /// The values that are given at the vertices of a mesh of these lines: along paths, `of_path` by their index; along the

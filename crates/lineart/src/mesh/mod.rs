@@ -20,6 +20,7 @@
 
 pub mod curved;
 pub mod drawn;
+mod opening;
 mod queue;
 mod refine;
 pub mod size;

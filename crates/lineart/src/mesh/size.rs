@@ -4,14 +4,15 @@
 //! larger ones,
 //!
 //! ```text
-//! size(x) = min( largest, min over samples s of  share · lfs(s) + growth · |x − s| )
+//! size(x) = min( largest, min over places p of  size(p) + growth · |x − p| )
 //! ```
 //!
 //! so neighbouring triangles differ little (the function is `growth`-Lipschitz), and the drawing's own measure of detail
-//! decides. lfs falls to 0 at corners, crossings and stroke ends of no room; a triangle there need not be smaller than the
-//! lines that meet there, so each sample asks for no less than its shortest line.
+//! decides. Samples ask for a multiple of lfs. It falls to 0 at corners, crossings and stroke ends of no room; a triangle there need not be
+//! smaller than the lines that meet there, so each sample counts as much as its shortest line at least. Ends and corners of
+//! lines ask for what simulation needs (`opening`).
 //!
-//! The minimum over all samples is found in a tree over them whose nodes know the least that any sample below asks for.
+//! The minimum over all places is found in a tree over them whose nodes know the least that any place below asks for.
 
 use feature_sampling::geometry::Point;
 

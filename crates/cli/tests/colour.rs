@@ -76,3 +76,45 @@ fn what_cannot_be_done_is_said() {
     let run = place.run_with(&["colour", "art.svg", "--hint-layer", "other", "-o", "out.svg"], "");
     assert_eq!(run.code, 0, "a layer by another name: {}", run.err);
 }
+
+/// Fewer samples change triangles, not which hint fills which room.
+#[test]
+fn the_same_rooms_for_any_epsilon() {
+    let place = Place::new();
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    for (drawing, hints) in
+        [("elephant_outline_matthe_r.svg", "elephant.csv"), ("sleeping_cat_ron_golan_01.svg", "cat.csv")]
+    {
+        let [drawing, hints] = [root.join("drawings").join(drawing), root.join("docs/pictures/hints").join(hints)]
+            .map(|path| path.to_str().expect("a path in UTF-8").to_owned());
+        let rooms = |epsilon: &str| {
+            let options =
+                ["colour", &drawing, "--hints", &hints, "--epsilon", epsilon, "-o", "out.svg", "--report", "out.json"];
+            let run = place.run_with(&options, "");
+            assert_eq!(run.code, 0, "{}", run.err);
+            let report: serde_json::Value = serde_json::from_str(&place.get("out.json")).expect("JSON");
+            let regions = report["regions"].as_array().expect("regions").iter();
+            // By hint: its colour, the other hints in its room, and the room's area.
+            let mut rooms: Vec<(String, f64)> = regions
+                .filter(|region| region["hints"].as_array().is_some_and(|hints| !hints.is_empty()))
+                .map(|region| {
+                    let name = format!("{} {}", region["hints"], region["colour"]);
+                    (name, region["area"].as_f64().expect("an area"))
+                })
+                .collect();
+            rooms.sort_by(|a, b| a.0.cmp(&b.0));
+            rooms
+        };
+        let dense = rooms("0.4");
+        assert!(dense.len() >= 4, "{dense:?}");
+        for epsilon in ["0.5", "0.6", "0.7"] {
+            let found = rooms(epsilon);
+            let names = |rooms: &[(String, f64)]| rooms.iter().map(|room| room.0.clone()).collect::<Vec<_>>();
+            assert_eq!(names(&found), names(&dense), "{drawing} at {epsilon}");
+            let all: f64 = dense.iter().map(|room| room.1).sum();
+            for (room, dense) in found.iter().zip(&dense) {
+                assert!((room.1 - dense.1).abs() < 0.05 * all, "{drawing} at {epsilon}: {room:?} was {dense:?}");
+            }
+        }
+    }
+}

@@ -83,6 +83,8 @@ pub(crate) fn judge(mesh: &Mesh, drawn: &Drawn, options: &Options) -> Result<(),
     let mut flat = 0;
     for triangle in &mesh.triangles {
         let p = triangle.map(point);
+        // The smallest angle, and the edge opposite to it.
+        let mut least = (f64::INFINITY, 0);
         for i in 0..3 {
             let (a, b, c) = (p[i], p[(i + 1) % 3], p[(i + 2) % 3]);
             let most = options.size.at(&a).min(options.size.at(&b));
@@ -92,12 +94,15 @@ pub(crate) fn judge(mesh: &Mesh, drawn: &Drawn, options: &Options) -> Result<(),
             // The angle at c.
             let (u, v) = (a.minus(&c), b.minus(&c));
             let angle = u.cross(&v).atan2(u.dot(&v)).to_degrees();
-            if angle < options.min_angle - 1e-6 {
-                flat += 1;
-                let (from, to) = (triangle[i], triangle[(i + 1) % 3]);
-                if !joins_sharp(drawn, &lines_at, from, to) {
-                    return Err(format!("an angle of {angle}° at {c:?}, away from small input angles"));
-                }
+            if angle < least.0 {
+                least = (angle, i);
+            }
+        }
+        let (angle, i) = least;
+        if angle < options.min_angle - 1e-6 {
+            flat += 1;
+            if !joins_sharp(drawn, &lines_at, triangle[i], triangle[(i + 1) % 3]) {
+                return Err(format!("an angle of {angle}° at {:?}, away from small input angles", p[(i + 2) % 3]));
             }
         }
     }

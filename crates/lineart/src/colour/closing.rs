@@ -78,7 +78,7 @@ pub(super) fn closings(plane: &Plane<'_>, region_of: &[u32]) -> Closings {
         refused.insert(closing);
     });
     // Closings that are left may cross each other: the later one gives way.
-    let boxes = Boxes::new(lines.iter().map(|line| Aabb::around(line)).collect());
+    let boxes = Boxes::new(lines.iter().map(Aabb::around).collect());
     let mut pairs = Vec::new();
     boxes.overlapping(|_| true, |i, j| pairs.push((i as usize, j as usize)));
     pairs.sort_unstable();
@@ -150,7 +150,7 @@ fn meetings(plane: &Plane<'_>, lines: &[Vec<Point<f64>>], mut found: impl FnMut(
         Track::new(cubics).cubics(from, to).for_each(|cubic| bounds.merge(&cubic.control_box()));
         bounds
     };
-    let boxes = Boxes::new(lines.iter().map(|line| Aabb::around(line)).chain(pieces.iter().map(hull)).collect());
+    let boxes = Boxes::new(lines.iter().map(Aabb::around).chain(pieces.iter().map(hull)).collect());
     let count = lines.len();
     boxes.overlapping(
         |i| (i as usize) < count,

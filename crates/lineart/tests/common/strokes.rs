@@ -164,11 +164,20 @@ pub(crate) fn clash(a: [[i64; 2]; 2], b: [[i64; 2]; 2]) -> bool {
 /// Judges a graph; `Err` says what is wrong.
 pub(crate) fn judge(paths: &[DrawingPath], chains: &[Chain], noded: &Noded, pitch: f64) -> Result<Verdict, String> {
     let segment = |ends: [u32; 2]| ends.map(|v| noded.vertices[v as usize].place);
-    for (i, a) in noded.edges.iter().enumerate() {
-        if a.ends[0] >= a.ends[1] {
-            return Err(format!("edge {i} has its ends in disorder"));
-        }
-        for (j, b) in noded.edges.iter().enumerate().skip(i + 1) {
+    if let Some(i) = noded.edges.iter().position(|edge| edge.ends[0] >= edge.ends[1]) {
+        return Err(format!("edge {i} has its ends in disorder"));
+    }
+    // All pairs, but those that are apart from left to right.
+    let mut by_left: Vec<(i64, i64, usize)> = Vec::with_capacity(noded.edges.len());
+    for (i, edge) in noded.edges.iter().enumerate() {
+        let [a, b] = segment(edge.ends);
+        by_left.push((a[0].min(b[0]), a[0].max(b[0]), i));
+    }
+    by_left.sort_unstable();
+    for (k, &(_, right, i)) in by_left.iter().enumerate() {
+        let a = &noded.edges[i];
+        for &(_, _, j) in by_left[k + 1..].iter().take_while(|(left, ..)| *left <= right) {
+            let b = &noded.edges[j];
             if a.ends == b.ends || clash(segment(a.ends), segment(b.ends)) {
                 return Err(format!("edges {i} and {j} meet: {:?} {:?}", segment(a.ends), segment(b.ends)));
             }

@@ -13,6 +13,7 @@ use super::apart::Stretch;
 use super::nearest::{Locality, nearest_beside, nearest_non_local, nearest_on_arc};
 use super::{Arc, Curve, CurveParam, JointKind, Segment};
 use crate::buffer::{BufferFull, Keep, Store};
+use crate::geometry::Point;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -59,6 +60,22 @@ struct Finder<'w, 'c, S> {
     coarse: S,
 }
 
+/// Arcs that are kept in mind, at most; where more are near, the hierarchy is asked again for every part.
+const CANDIDATES: usize = 128;
+
+/// What may touch a stretch of an arc. What may touch a part of it is among them: parts move theirs to the front.
+type Candidates = ArrayVec<u32, CANDIDATES>;
+
+/// A stretch of an arc, as its candidates see it.
+struct View<S> {
+    middle: Point<S>,
+    /// Squared distance from the middle beyond which nothing touches.
+    limit: S,
+    /// What is local to both ends is so to all of it: arcs turn by 30°, loops by far more than the two radians around a place.
+    ends: [Locality<S>; 2],
+    hull: Option<Stretch<S>>,
+}
+
 impl<S: Scalar> Finder<'_, '_, S> {
     fn arc(
         &self,
@@ -69,46 +86,48 @@ impl<S: Scalar> Finder<'_, '_, S> {
         out: &mut impl Store<Contact<S>>,
     ) -> Result<(), BufferFull> {
         let mut from = arc.span[0].clone();
-        let mut pending: ArrayVec<S, 56> = ArrayVec::new();
-        pending.keep(arc.span[1].clone());
-        while let Some(to) = pending.pop() {
+        let mut candidates = Candidates::new();
+        // Ends of stretches, with the number of candidates of the stretch that they are a part of, if all are known.
+        let mut pending: ArrayVec<(S, Option<usize>), 56> = ArrayVec::new();
+        pending.keep((arc.span[1].clone(), None));
+        while let Some((to, known)) = pending.pop() {
             let middle = S::midpoint(&from, &to);
-            let (a, b) = (segment.point(&from), segment.point(&to));
-            let length = a.distance(&b);
+            let length = segment.point(&from).distance(&segment.point(&to));
             // An arc of at most 30° is less than 1.05 chords long, so half of it is within 0.55 chords of its middle.
             let within = length.clone() * &S::ratio(3, 4) + &self.reach;
-            let Some(near) = self.other(segment, arc, &middle, &within) else {
-                from = to;
-                continue;
+            let view = View {
+                middle: segment.point(&middle),
+                limit: (within.clone() + &self.reach).square(),
+                ends: [&from, &to].map(|t| Locality::on_arc(segment, arc, t)),
+                hull: Stretch::new(segment, &from, &to),
             };
-            if self.clear(segment, arc, [&from, &middle, &to], &within) {
+            let (count, complete) = self.narrow(&view, &mut candidates, known);
+            let near = candidates.get(..count).unwrap_or_default();
+            if near.is_empty() || (length <= self.coarse && self.apart(segment, arc, [&from, &middle, &to], &length)) {
                 from = to;
                 continue;
             }
-            if length <= self.coarse && self.apart(segment, arc, [&from, &middle, &to], &length) {
-                from = to;
-                continue;
-            }
-            if self.on_one_line(segment, arc, [&from, &to]) {
+            if self.on_one_line(segment, &view, [&from, &to], near) {
                 Self::add(index, &from, &to, first, out)?;
                 from = to;
                 continue;
             }
             let small = length <= self.reach || middle <= from || middle >= to;
-            let same = !small
-                && length <= self.coarse
-                && near <= self.reach
-                && self.other(segment, arc, &from, &self.reach).is_some()
-                && self.other(segment, arc, &to, &self.reach).is_some();
+            let touched = |t: &S, within: &S| {
+                let own = Locality::on_arc(segment, arc, t);
+                near.iter().any(|&other| self.passes(other, &own, &segment.point(t), within))
+            };
+            let same = !small && length <= self.coarse && [&middle, &from, &to].iter().all(|t| touched(t, &self.reach));
             if small || same {
                 // What coincides with another stroke does so at a corner too.
-                if same || !self.at_corner(segment, &from, &to) {
+                if same || (touched(&middle, &within) && !self.at_corner(segment, &from, &to)) {
                     Self::add(index, &from, &to, first, out)?;
                 }
                 from = to;
             } else if pending.remaining_capacity() >= 2 {
-                pending.keep(to);
-                pending.keep(middle);
+                let known = complete.then_some(count);
+                pending.keep((to, known));
+                pending.keep((middle, known));
             } else {
                 from = to;
             }
@@ -116,44 +135,68 @@ impl<S: Scalar> Finder<'_, '_, S> {
         Ok(())
     }
 
-    /// Both ends of a straight stretch lie on the same other line, hence all of it.
-    fn on_one_line(&self, segment: &Segment<S>, arc: &Arc<S>, ends: [&S; 2]) -> bool {
-        let straight = |s: &Segment<S>| s.power.a.iter().skip(1).all(|v| v.norm() <= self.reach);
-        if !straight(segment) {
-            return false;
+    /// Moves to the front what may touch a stretch: of the first `known` candidates, or of the whole curve. How many there are,
+    /// and whether these are all.
+    fn narrow(&self, view: &View<S>, candidates: &mut Candidates, known: Option<usize>) -> (usize, bool) {
+        if let Some(known) = known {
+            let mut count = 0;
+            for i in 0..known {
+                if candidates.get(i).is_some_and(|&arc| self.may_touch(view, arc)) {
+                    // An error where the two are the same: nothing to do.
+                    if let Ok([a, b]) = candidates.get_disjoint_mut([i, count]) {
+                        core::mem::swap(a, b);
+                    }
+                    count += 1;
+                }
+            }
+            return (count, true);
         }
-        let [a, b] = ends.map(|t| {
-            let own = Locality::on_arc(segment, arc, t);
-            nearest_non_local(self.curve, &segment.point(t), &own, self.reach.clone().square())
-        });
-        let (Some(a), Some(b)) = (a, b) else { return false };
-        a.at.segment == b.at.segment && self.curve.segment(a.at.segment).is_some_and(straight)
-    }
-
-    /// Nothing that is not local to some point of the stretch comes near enough to touch it: each arc within reach of the
-    /// stretch is parted from it by a line.
-    fn clear(&self, segment: &Segment<S>, arc: &Arc<S>, [from, middle, to]: [&S; 3], within: &S) -> bool {
-        let Some(stretch) = Stretch::new(segment, from, to) else { return false };
-        let own = [from, to].map(|t| Locality::on_arc(segment, arc, t));
-        let centre = segment.point(middle);
-        // What touches at the smallest size is within 7/4 of `reach` of some middle.
-        let limit = (within.clone() + &self.reach).square();
-        let margin = self.reach.clone().twice() + self.curve.noise;
-        let mut clear = true;
+        candidates.clear();
+        let mut state = (candidates, true);
         self.curve.hierarchy().traverse(
-            &centre,
-            &mut clear,
-            |clear, bounds| *clear && bounds.distance_sq(&centre) < limit,
-            |clear, leaf, _| {
-                *clear = self.curve.arcs_in(leaf).all(|(_, other)| {
-                    let Some(its) = self.curve.segment(other.segment) else { return true };
-                    own.iter().all(|l| l.holds(its, other))
-                        || stretch.clear_of(its, other, &margin)
-                        || nearest_on_arc(its, other, &centre).distance_sq >= limit
-                });
+            &view.middle,
+            &mut state,
+            |(_, complete), bounds| *complete && bounds.distance_sq(&view.middle) < view.limit,
+            |(candidates, complete), leaf, _| {
+                for (arc, _) in self.curve.arcs_in(leaf) {
+                    *complete &= !self.may_touch(view, arc) || candidates.try_push(arc).is_ok();
+                }
             },
         );
-        clear
+        let (candidates, complete) = state;
+        (candidates.len(), complete)
+    }
+
+    /// The arc may touch the stretch: it is not local, not too far, and no line parts the two.
+    fn may_touch(&self, view: &View<S>, arc: u32) -> bool {
+        let Some(arc) = self.curve.arcs.get(arc as usize) else { return false };
+        let Some(segment) = self.curve.segment(arc.segment) else { return false };
+        // What touches at the smallest size is within 7/4 of `reach` of some middle.
+        let margin = self.reach.clone().twice() + self.curve.noise;
+        !view.ends.iter().all(|l| l.holds(segment, arc))
+            && nearest_on_arc(segment, arc, &view.middle).distance_sq < view.limit
+            && !view.hull.as_ref().is_some_and(|h| h.clear_of(segment, arc, &margin))
+    }
+
+    /// The arc is not local to a place and comes nearer than `within` to its point.
+    fn passes(&self, arc: u32, own: &Locality<S>, p: &Point<S>, within: &S) -> bool {
+        let Some(arc) = self.curve.arcs.get(arc as usize) else { return false };
+        let Some(segment) = self.curve.segment(arc.segment) else { return false };
+        !own.holds(segment, arc) && nearest_on_arc(segment, arc, p).distance_sq < within.clone().square()
+    }
+
+    /// Both ends of a straight stretch lie on the same other line, hence all of it.
+    fn on_one_line(&self, segment: &Segment<S>, view: &View<S>, ends: [&S; 2], near: &[u32]) -> bool {
+        let straight = |s: &Segment<S>| s.power.a.iter().skip(1).all(|v| v.norm() <= self.reach);
+        straight(segment)
+            && near.iter().any(|&other| {
+                let its = self.curve.arcs.get(other as usize).and_then(|arc| self.curve.segment(arc.segment));
+                its.is_some_and(straight)
+                    && ends
+                        .iter()
+                        .zip(&view.ends)
+                        .all(|(t, own)| self.passes(other, own, &segment.point(t), &self.reach))
+            })
     }
 
     /// A single other stroke runs beside this stretch without touching it, as strokes do where they leave a cusp.
@@ -194,13 +237,6 @@ impl<S: Scalar> Finder<'_, '_, S> {
         let middle = t[1];
         let own = Locality::on_arc(segment, arc, middle);
         nearest_beside(self.curve, &segment.point(middle), &[own, other], limit).is_none()
-    }
-
-    /// Distance from a point of the arc to what is not local to it, if below `limit`.
-    fn other(&self, segment: &Segment<S>, arc: &Arc<S>, t: &S, limit: &S) -> Option<S> {
-        let locality = Locality::on_arc(segment, arc, t);
-        let p = segment.point(t);
-        nearest_non_local(self.curve, &p, &locality, limit.clone().square()).map(|n| n.distance_sq.sqrt())
     }
 
     /// The stretch reaches a corner or joint of its own segment, where other branches meet it as a matter of course.

@@ -187,8 +187,9 @@ impl<'c, S: Scalar> Legs<'c, S> {
         }
     }
 
+    /// What lies at an end of the segment that is k on from the first.
     fn ending(&self, k: u32, side: usize) -> RunEnd {
-        let end = self.curve.segment(self.path.first + self.path.around(k)).map(|s| s.end(side));
+        let end = self.curve.segment(self.path.first + self.path.around(self.first + k)).map(|s| s.end(side));
         match end {
             Some(e) if e.kind == JointKind::Corner || e.retracted => RunEnd::Singular,
             _ => RunEnd::Open,

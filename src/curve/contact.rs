@@ -39,7 +39,14 @@ pub fn reach<S: Scalar>(curve: &Curve<'_, S>) -> S {
     billionth.max(S::unit_roundoff().mul_pow2(3)) * curve.diagonal
 }
 
-/// Appends all contacts of one segment, by ascending parameter. Joints are none: what meets there is known.
+/// A contact no longer than this is a point: strokes that cross, or leave a corner, under 8° or more touch for that long.
+pub(crate) fn point_length<S: Scalar>(curve: &Curve<'_, S>) -> S {
+    reach(curve) * &S::int(8)
+}
+
+/// Appends all contacts of one segment, by ascending parameter. Joints are none: what meets there is known, and whoever
+/// walks along the curve looks for strokes that pass through one. What leaves a corner together for longer than a point does
+/// coincide.
 ///
 /// # Errors
 /// [`BufferFull`] where `out` cannot take more.
@@ -50,6 +57,7 @@ pub fn find<S: Scalar>(curve: &Curve<'_, S>, segment: u32, out: &mut impl Store<
     for arc in curve.arcs_of(s) {
         finder.arc(segment, s, arc, first, out)?;
     }
+    finder.settle(s, first, out);
     Ok(())
 }
 
@@ -108,7 +116,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
                 continue;
             }
             if self.on_one_line(segment, &view, [&from, &to], near) {
-                Self::add(index, &from, &to, first, out)?;
+                self.add(segment, index, [&from, &to], first, out)?;
                 from = to;
                 continue;
             }
@@ -119,9 +127,8 @@ impl<S: Scalar> Finder<'_, '_, S> {
             };
             let same = !small && length <= self.coarse && [&middle, &from, &to].iter().all(|t| touched(t, &self.reach));
             if small || same {
-                // What coincides with another stroke does so at a corner too.
-                if same || (touched(&middle, &within) && !self.at_corner(segment, &from, &to)) {
-                    Self::add(index, &from, &to, first, out)?;
+                if same || touched(&middle, &within) {
+                    self.add(segment, index, [&from, &to], first, out)?;
                 }
                 from = to;
             } else if pending.remaining_capacity() >= 2 {
@@ -239,26 +246,38 @@ impl<S: Scalar> Finder<'_, '_, S> {
         nearest_beside(self.curve, &segment.point(middle), &[own, other], limit).is_none()
     }
 
-    /// The stretch reaches a corner or joint of its own segment, where other branches meet it as a matter of course.
-    fn at_corner(&self, segment: &Segment<S>, from: &S, to: &S) -> bool {
-        let slack = self.reach.clone() * &S::int(4);
-        let near = |side: usize, t: &S| {
-            segment.end(side).kind == JointKind::Corner && segment.point(t).distance(segment.end_point(side)) <= slack
-        };
-        near(0, from) || near(1, to)
-    }
-
     /// Adds a contact, or grows the last one that it continues.
-    fn add(index: u32, from: &S, to: &S, first: usize, out: &mut impl Store<Contact<S>>) -> Result<(), BufferFull> {
+    fn add(
+        &self,
+        segment: &Segment<S>,
+        index: u32,
+        [from, to]: [&S; 2],
+        first: usize,
+        out: &mut impl Store<Contact<S>>,
+    ) -> Result<(), BufferFull> {
         if out.items().len() > first
             && let Some(last) = out.items_mut().last_mut()
-            && last.segment == index
             && last.span[1] >= *from
         {
             last.span[1] = to.clone();
             return Ok(());
         }
+        self.settle(segment, first, out);
         out.push(Contact { segment: index, span: [from.clone(), to.clone()] })
+    }
+
+    /// Takes the last contact back if it is no more than a corner of its segment.
+    fn settle(&self, segment: &Segment<S>, first: usize, out: &mut impl Store<Contact<S>>) {
+        let Some(last) = out.items().get(first..).and_then(<[_]>::last) else { return };
+        let length = point_length(self.curve);
+        let is_corner = |side: usize| {
+            let near = |t: &S| segment.point(t).distance(segment.end_point(side)) <= length;
+            segment.end(side).kind == JointKind::Corner && last.span.iter().all(near)
+        };
+        if is_corner(0) || is_corner(1) {
+            let kept = out.items().len() - 1;
+            out.shorten(kept);
+        }
     }
 }
 

@@ -25,7 +25,7 @@
 use super::disk::{Guard, TangentDisk, Touch, tangent_disk, tangent_disk_beside};
 use super::foot::{Foot, Side};
 use crate::buffer::{BufferFull, Keep, Sink};
-use crate::curve::contact::{Contact, reach};
+use crate::curve::contact::{Contact, point_length, reach};
 use crate::curve::joint::clockwise_rank;
 use crate::curve::nearest::{Locality, nearest_beside, nearest_on_arc};
 use crate::curve::{Arc, Curve, CurveParam, EndId, JointKind};
@@ -383,7 +383,7 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
         let (a, b) = (start.clone().max(arc.span[0].clone()), end.clone().min(arc.span[1].clone()));
         let point = |t: &S| self.curve.segment(index).map(|s| s.point(t));
         let length = point(&a).zip(point(&b)).map_or_else(S::zero, |(p, q)| p.distance(&q));
-        if length <= reach(self.curve) * &S::int(8) {
+        if length <= point_length(self.curve) {
             let t = contact.middle();
             let inside = t > arc.span[0] && t < arc.span[1];
             return match self.on_curve(CurveParam { segment: index, t }).filter(|_| inside) {

@@ -9,7 +9,7 @@
 use super::Segment;
 use crate::bezier::critical;
 use crate::buffer::{BufferFull, Keep, Store};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, Point, distance_sq_to_segment};
 use crate::order::sort;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -102,6 +102,28 @@ impl<S: Scalar> Arc<S> {
         let start = *from <= S::zero() && segment.end(0).retracted;
         let end = *to >= S::one() && segment.end(1).retracted;
         [if start { from.clone() + &margin } else { from.clone() }, if end { to.clone() - &margin } else { to.clone() }]
+    }
+
+    /// Proves that all of the arc is at least the root of `limit_sq` away from p, up to roundoff; `false` says nothing.
+    ///
+    /// The arc is convex and lies in the triangle of its chord and end tangents. With angles α and β there, α + β its
+    /// turning, the triangle's height is sin α sin β / sin(α + β) chords, a quarter of the turning or little more; a
+    /// third of the length that stands for the turning covers the difference below half a radian.
+    pub(super) fn is_beyond(&self, segment: &Segment<S>, p: &Point<S>, limit_sq: &S) -> bool {
+        let [from, to] = &self.span;
+        let (a, b) = (segment.point(from), segment.point(to));
+        let distance_sq = distance_sq_to_segment(p, &a, &b);
+        if distance_sq < *limit_sq {
+            return false;
+        }
+        let turning = self.turning(segment);
+        if turning > S::ratio(9, 16) {
+            return false;
+        }
+        let bow_sq = a.distance_sq(&b) * &(turning / &S::int(3)).square();
+        // (√d − √h)² ≥ l follows from d ≥ l + h and (d − l − h)² ≥ 4 l h.
+        let rest = distance_sq - limit_sq - &bow_sq;
+        rest >= S::zero() && rest.square() >= bow_sq * limit_sq * &S::int(4)
     }
 
     /// How much it turns: the length of the difference of its end tangents, a little less than the angle in radians.

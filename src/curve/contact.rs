@@ -181,6 +181,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
         // What touches at the smallest size is within 7/4 of `reach` of some middle.
         let margin = self.reach.clone().twice() + self.curve.noise;
         !view.ends.iter().all(|l| l.holds(segment, arc))
+            && !arc.is_beyond(segment, &view.middle, &view.limit)
             && nearest_on_arc(segment, arc, &view.middle).distance_sq < view.limit
             && !view.hull.as_ref().is_some_and(|h| h.clear_of(segment, arc, &margin))
     }

@@ -10,7 +10,7 @@
 //! [`reach`], a billionth of the diagonal (or a few roundoffs, where the scalar has fewer bits).
 
 use super::apart::Stretch;
-use super::nearest::{Locality, nearest_beside, nearest_non_local, nearest_on_arc};
+use super::nearest::{Locality, nearest_on_arc};
 use super::{Arc, Curve, CurveParam, JointKind, Segment};
 use crate::buffer::{BufferFull, Keep, Store};
 use crate::geometry::Point;
@@ -39,7 +39,7 @@ pub fn reach<S: Scalar>(curve: &Curve<'_, S>) -> S {
     billionth.max(S::unit_roundoff().mul_pow2(3)) * curve.diagonal
 }
 
-/// A contact no longer than this is a point: strokes that cross, or leave a corner, under 8° or more touch for that long.
+/// A contact no longer than this is a point: strokes that cross, or leave a corner, under 13° or more touch for that long.
 pub(crate) fn point_length<S: Scalar>(curve: &Curve<'_, S>) -> S {
     reach(curve) * &S::int(8)
 }
@@ -111,7 +111,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
             };
             let (count, complete) = self.narrow(&view, &mut candidates, known);
             let near = candidates.get(..count).unwrap_or_default();
-            if near.is_empty() || (length <= self.coarse && self.apart(segment, arc, [&from, &middle, &to], &length)) {
+            if near.is_empty() {
                 from = to;
                 continue;
             }
@@ -178,8 +178,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
     fn may_touch(&self, view: &View<S>, arc: u32) -> bool {
         let Some(arc) = self.curve.arcs.get(arc as usize) else { return false };
         let Some(segment) = self.curve.segment(arc.segment) else { return false };
-        // What touches at the smallest size is within 7/4 of `reach` of some middle.
-        let margin = self.reach.clone().twice() + self.curve.noise;
+        let margin = self.reach.clone() + self.curve.noise;
         !view.ends.iter().all(|l| l.holds(segment, arc))
             && !arc.is_beyond(segment, &view.middle, &view.limit)
             && nearest_on_arc(segment, arc, &view.middle).distance_sq < view.limit
@@ -205,46 +204,6 @@ impl<S: Scalar> Finder<'_, '_, S> {
                         .zip(&view.ends)
                         .all(|(t, own)| self.passes(other, own, &segment.point(t), &self.reach))
             })
-    }
-
-    /// A single other stroke runs beside this stretch without touching it, as strokes do where they leave a cusp.
-    ///
-    /// At this size both are parabolas at most, so the gap is a quadratic, known from its values at the ends and the middle.
-    fn apart(&self, segment: &Segment<S>, arc: &Arc<S>, t: [&S; 3], length: &S) -> bool {
-        let limit = (length.clone() + &self.reach).square();
-        let mut other: Option<Locality<S>> = None;
-        let mut gaps: ArrayVec<S, 3> = ArrayVec::new();
-        for t in t {
-            let p = segment.point(t);
-            let own = Locality::on_arc(segment, arc, t);
-            let Some(near) = nearest_non_local(self.curve, &p, &own, limit.clone()) else { return false };
-            let same = other.as_ref().is_none_or(|o| {
-                let its = self.curve.segment(near.at.segment);
-                its.is_some_and(|s| self.curve.arcs_of(s).iter().any(|a| a.span[1] >= near.at.t && o.holds(s, a)))
-            });
-            if !same {
-                return false;
-            }
-            if other.is_none() {
-                other = Locality::of(self.curve, &near.at);
-            }
-            let ahead = segment.tangent(t).left().dot(&near.point.minus(&p));
-            if ahead.clone().abs() <= self.reach {
-                return false;
-            }
-            gaps.keep(ahead);
-        }
-        let (Some(other), [a, m, b]) = (other, gaps.as_slice()) else { return false };
-        let same_side = (*a > S::zero()) == (*m > S::zero()) && (*m > S::zero()) == (*b > S::zero());
-        // The quadratic's smallest value is above the smallest of the three less its bend.
-        let bend = (a.clone() + b - &m.clone().twice()).abs();
-        let least = a.clone().abs().min(m.clone().abs()).min(b.clone().abs());
-        if !same_side || least <= bend {
-            return false;
-        }
-        let middle = t[1];
-        let own = Locality::on_arc(segment, arc, middle);
-        nearest_beside(self.curve, &segment.point(middle), &[own, other], limit).is_none()
     }
 
     /// Adds a contact, or grows the last one that it continues.

@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Stroke, curve_model, ellipse, mapped, polygon, pt};
+use common::{Stroke, closed, curve_model, ellipse, mapped, polygon, pt};
+use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::contact::{place, reach};
 use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::model::CurveModel;
@@ -20,6 +21,26 @@ fn outlines_a_millionth_apart_do_not_touch() {
         let outer = ellipse(0.0, 0.0, 3.0 * (1.0 + gap), 2.0 * (1.0 + gap));
         assert_eq!(model(&[inner, outer]).contacts(), [], "gap {gap}");
     }
+}
+
+/// As programs write it that keep fill and stroke apart.
+#[test]
+fn an_outline_drawn_twice_with_other_joints_touches_all_along() {
+    let once = ellipse(0.0, 0.0, 3.0, 2.0);
+    let halves = |c: &Cubic<f64>| {
+        let (a, b) = c.split_at(&0.3);
+        [a, b]
+    };
+    let twice = closed(once.cubics.iter().flat_map(halves).collect());
+    let model = model(&[once, twice]);
+    assert_eq!(model.curve().segments.len(), 12, "4 and 8 cubics");
+    for segment in 0..12 {
+        let own = model.contacts().iter().filter(|c| c.segment == segment);
+        let share: f64 = own.map(|c| c.span[1] - c.span[0]).sum();
+        assert!((share - 1.0).abs() < 1e-4, "segment {segment}: {share} of it touches");
+    }
+    // A few for each segment, not one for each hundred-thousandth.
+    assert!(model.contacts().len() < 60, "{} contacts", model.contacts().len());
 }
 
 #[test]

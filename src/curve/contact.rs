@@ -5,9 +5,11 @@
 //! smallest size does. The cost is that of O(log) closest-point searches a contact, and of √(κ/g) for each length along which
 //! strokes of curvature κ run side by side with a gap g.
 //!
-//! A contact is an interval of parameters, since strokes can coincide along a stretch: straight ones are recognised as a
-//! whole, curved ones at a hundred-thousandth of the diagonal. Touching means: nearer than
-//! [`reach`], a billionth of the diagonal (or a few roundoffs, where the scalar has fewer bits).
+//! A contact is an interval of parameters, since strokes can coincide along a stretch. Straight ones do if two points of one
+//! lie on the other, curved ones if [`WITNESSES`] points of a stretch lie on one other arc: two different cubics have nine in
+//! common at most (Bézout). Touching means: nearer than [`reach`], a billionth of the diagonal (or a few roundoffs, where
+//! the scalar has fewer bits). Between ten even points that touch, the gap is no more than some twenty times that, the
+//! Lebesgue constant of interpolation in them.
 
 use super::apart::Stretch;
 use super::nearest::{Locality, nearest_on_arc};
@@ -68,6 +70,9 @@ struct Finder<'w, 'c, S> {
     coarse: S,
 }
 
+/// Points of a stretch that must lie on another arc for the two to coincide: one more than two cubics can share.
+const WITNESSES: i32 = 10;
+
 /// Arcs that are kept in mind, at most; where more are near, the hierarchy is asked again for every part.
 const CANDIDATES: usize = 128;
 
@@ -115,7 +120,9 @@ impl<S: Scalar> Finder<'_, '_, S> {
                 from = to;
                 continue;
             }
-            if self.on_one_line(segment, &view, [&from, &to], near) {
+            if self.on_one_line(segment, &view, [&from, &to], near)
+                || self.on_one_arc(segment, &view, [&from, &to], near)
+            {
                 self.add(segment, index, [&from, &to], first, out)?;
                 from = to;
                 continue;
@@ -189,7 +196,10 @@ impl<S: Scalar> Finder<'_, '_, S> {
     fn passes(&self, arc: u32, own: &Locality<S>, p: &Point<S>, within: &S) -> bool {
         let Some(arc) = self.curve.arcs.get(arc as usize) else { return false };
         let Some(segment) = self.curve.segment(arc.segment) else { return false };
-        !own.holds(segment, arc) && nearest_on_arc(segment, arc, p).distance_sq < within.clone().square()
+        let limit = within.clone().square();
+        !own.holds(segment, arc)
+            && !arc.is_beyond(segment, p, &limit)
+            && nearest_on_arc(segment, arc, p).distance_sq < limit
     }
 
     /// Both ends of a straight stretch lie on the same other line, hence all of it.
@@ -204,6 +214,17 @@ impl<S: Scalar> Finder<'_, '_, S> {
                         .zip(&view.ends)
                         .all(|(t, own)| self.passes(other, own, &segment.point(t), &self.reach))
             })
+    }
+
+    /// Evenly spaced points of the stretch lie on one other arc, too many for two cubics that differ.
+    fn on_one_arc(&self, segment: &Segment<S>, view: &View<S>, [from, to]: [&S; 2], near: &[u32]) -> bool {
+        near.iter().any(|&other| {
+            (0..WITNESSES).all(|k| {
+                let t = (to.clone() - from) * &S::ratio(k, WITNESSES - 1) + from;
+                let p = segment.point(&t);
+                view.ends.iter().all(|own| self.passes(other, own, &p, &self.reach))
+            })
+        })
     }
 
     /// Adds a contact, or grows the last one that it continues.

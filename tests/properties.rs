@@ -121,6 +121,16 @@ proptest! {
     }
 }
 
+/// The end of a loop touches the corner where the loop starts. That was taken for the corner itself, no floor held at the end,
+/// and samples went down to the last bit, where two of them were one point.
+#[test]
+fn the_end_of_a_loop_touches_its_corner() {
+    let first = Cubic::new(pt(0.0, 1.0), pt(0.0, 0.0), pt(0.0, 0.0), pt(0.0, 0.0));
+    let second = Cubic::new(pt(0.0, 0.0), pt(3.0, 2.0), pt(4.0, 1.0), pt(0.0, 0.0));
+    let stroke = common::open(vec![first, second]);
+    holds::<f32>(&[stroke], 1e-5, &Resolution::Tolerance(1e-2)).expect("a drawing like any other");
+}
+
 #[test]
 fn nothing_is_an_error() {
     let nothing: [Stroke; 0] = [];

@@ -251,9 +251,12 @@ impl<S: Scalar> Finder<'_, '_, S> {
     fn settle(&self, segment: &Segment<S>, first: usize, out: &mut impl Store<Contact<S>>) {
         let Some(last) = out.items().get(first..).and_then(<[_]>::last) else { return };
         let length = point_length(self.curve);
+        let [start, end] = &last.span;
+        // All the way from the corner: a loop comes back to the place of its corner, but not with the middle of its way.
         let is_corner = |side: usize| {
+            let (corner, far) = if side == 0 { (S::zero(), end) } else { (S::one(), start) };
             let near = |t: &S| segment.point(t).distance(segment.end_point(side)) <= length;
-            segment.end(side).kind == JointKind::Corner && last.span.iter().all(near)
+            segment.end(side).kind == JointKind::Corner && near(far) && near(&S::midpoint(&corner, far))
         };
         if is_corner(0) || is_corner(1) {
             let kept = out.items().len() - 1;

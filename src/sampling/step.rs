@@ -208,9 +208,10 @@ impl<S: Scalar> Search<S> {
                     *reaches = Some(Reaches::new(run, s, &self.here, min.clone() * &margin));
                     return None;
                 }
-                // A step must lead on, whatever rounding does to a bound.
-                if self.next.pos <= *s {
-                    self.next.pos = run.advance(s, &run.curve.noise.clone().mul_pow2(2));
+                // A step must lead on, whatever rounding does to a bound, and to another point.
+                if self.next.pos <= *s || (self.next.pos < run.end && run.point(&self.next.pos) == self.here) {
+                    let on = run.advance(s, &run.curve.noise.clone().mul_pow2(2));
+                    self.next.pos = on.max_of(&self.next.pos);
                 }
                 return Some(self.next.clone());
             }

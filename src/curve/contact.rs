@@ -1,12 +1,12 @@
 //! Where the curve touches itself: crossings, T-junctions, overlaps.
 //!
 //! A stretch of curve of length h can meet another, non-local one only if that one comes nearer to its middle than h, and not
-//! if a line parts the two ([`super::apart`]): so arcs are halved while something non-local may touch, and what is left at the
+//! if a line parts the two (`curve::apart`): so arcs are halved while something non-local may touch, and what is left at the
 //! smallest size does. The cost is that of O(log) closest-point searches a contact, and of √(κ/g) for each length along which
 //! strokes of curvature κ run side by side with a gap g.
 //!
 //! A contact is an interval of parameters, since strokes can coincide along a stretch. Straight ones do if two points of one
-//! lie on the other, curved ones if [`WITNESSES`] points of a stretch lie on one other arc: two different cubics have nine in
+//! lie on the other, curved ones if ten points of a stretch lie on one other arc: two different cubics have nine in
 //! common at most (Bézout). Touching means: nearer than [`reach`], a billionth of the diagonal (or a few roundoffs, where
 //! the scalar has fewer bits). Between ten even points that touch, the gap is no more than some twenty times that, the
 //! Lebesgue constant of interpolation in them.

@@ -29,7 +29,7 @@ use super::{Cubic, PowerBasis};
 use crate::geometry::{Point, Vector};
 use crate::polynomial::Polynomial;
 use crate::polynomial::bernstein::{self, Signs};
-use crate::polynomial::newton::in_bracket;
+use crate::polynomial::newton::{Start, in_bracket};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -122,6 +122,7 @@ struct View<'b, S> {
 }
 
 /// A stretch that may hold a minimum below the best value so far.
+#[derive(Clone)]
 struct Stretch<S> {
     /// Bernstein coefficients of g, times 10.
     g: [S; 6],
@@ -147,16 +148,17 @@ impl<'b, S: Scalar> View<'b, S> {
         self.offset.plus_scaled(t, &self.drift(t)).norm_sq()
     }
 
-    /// g(t) and g'(t) from the curve itself: their errors are those of B(t) − q and B'(t), much smaller than those of the
-    /// quintic's coefficients where the curve is slow or q is near.
+    /// g(t), g'(t) and g''(t)/2 from the curve itself: their errors are those of B(t) − q and B'(t), much smaller than those of
+    /// the quintic's coefficients where the curve is slow or q is near.
     #[inline]
-    fn slope(&self, t: &S) -> (S, S) {
+    fn slope(&self, t: &S) -> (S, S, S) {
         let [a1, a2, a3] = &self.basis.a;
-        let three_a3 = a3.scaled(&S::int(3));
+        let three = S::int(3);
         let away = self.offset.plus_scaled(t, &a1.plus_scaled(t, &a2.plus_scaled(t, a3)));
-        let bend = a2.plus_scaled(t, &three_a3);
+        let bend = a2.plus_scaled(t, &a3.scaled(&three));
         let velocity = a1.plus_scaled(t, &a2.plus(&bend));
-        (away.dot(&velocity), velocity.norm_sq() + &away.dot(&bend).twice())
+        let change = velocity.norm_sq() + &away.dot(&bend).twice();
+        (away.dot(&velocity), change, (velocity.dot(&bend) + &away.dot(a3)) * &three)
     }
 
     #[inline]
@@ -169,75 +171,66 @@ impl<'b, S: Scalar> View<'b, S> {
     fn search(&self, g: [S; 6], lo: S, hi: S) -> Nearest<S> {
         let (start, end) = (self.distance_sq(&lo), self.distance_sq(&hi));
         let mut best = if end < start { (hi.clone(), end) } else { (lo.clone(), start.clone()) };
+        // the last one is looked at next
         let mut pending: ArrayVec<Stretch<S>, PENDING> = ArrayVec::new();
         let noise = noise(&self.quintic);
-        let mut stretch = Stretch { g, noise, lo, hi, start, floor: S::zero() };
-        let Some(floor) = self.look(&mut stretch, &mut best) else {
+        pending.push(Stretch { g, noise, lo, hi, start, floor: S::zero() });
+        if let Some(stretch) = pending.last_mut()
+            && !self.look(stretch, &mut best)
+        {
             return self.answer(best.0, best.1);
-        };
-        stretch.floor = floor;
+        }
         for _ in 0..16 * S::BITS {
-            let Stretch { g, noise, lo, hi, start, floor } = stretch;
-            let mid = S::midpoint(&lo, &hi);
-            let mut next = None;
-            if floor < worthwhile(&best.1) && lo < mid && mid < hi {
+            let Some(stretch) = pending.last() else { break };
+            let mid = S::midpoint(&stretch.lo, &stretch.hi);
+            let is_worth_it = stretch.floor < worthwhile(&best.1) && stretch.lo < mid && mid < stretch.hi;
+            if is_worth_it && pending.is_full() {
+                pending.retain(|waiting| waiting.floor < worthwhile(&best.1));
+            }
+            let copy = pending.last().cloned();
+            if let Some(copy) = copy
+                && is_worth_it
+                && pending.try_push(copy).is_ok()
+                && let [.., right, left] = pending.as_mut_slice()
+            {
                 let value = self.distance_sq(&mid);
                 if value < best.1 {
                     best = (mid.clone(), value.clone());
                 }
-                let (left, right) = bernstein::halve(g);
-                let mut left = Stretch { g: left, noise: noise.clone(), lo, hi: mid.clone(), start, floor: S::zero() };
-                let mut right = Stretch { g: right, noise, lo: mid, hi, start: value, floor: S::zero() };
-                let left_floor = self.look(&mut left, &mut best);
-                let right_floor = self.look(&mut right, &mut best);
-                next = match (left_floor, right_floor) {
-                    (Some(l), Some(r)) => {
-                        let right_first = r < l;
-                        (left.floor, right.floor) = (l, r);
-                        let (sooner, later) = if right_first { (right, left) } else { (left, right) };
-                        if pending.is_full() {
-                            pending.retain(|waiting| waiting.floor < worthwhile(&best.1));
-                        }
-                        if !pending.is_full() {
-                            pending.push(later);
-                        }
-                        Some(sooner)
-                    }
-                    (Some(l), None) => {
-                        left.floor = l;
-                        Some(left)
-                    }
-                    (None, Some(r)) => {
-                        right.floor = r;
-                        Some(right)
-                    }
-                    (None, None) => None,
-                };
-            }
-            match next.or_else(|| pending.pop()) {
-                Some(other) => stretch = other,
-                None => break,
+                bernstein::halve(&mut right.g, &mut left.g);
+                left.hi = mid.clone();
+                right.lo = mid;
+                right.start = value;
+                let is_left_open = self.look(left, &mut best);
+                let is_right_open = self.look(right, &mut best);
+                // the only open half below, or the more promising one on top
+                if is_left_open && (!is_right_open || left.floor > right.floor) {
+                    core::mem::swap(left, right);
+                }
+                pending.truncate(pending.len() - usize::from(!is_left_open) - usize::from(!is_right_open));
+            } else {
+                pending.truncate(pending.len() - 1);
             }
         }
         self.answer(best.0, best.1)
     }
 
-    /// Settles a stretch if it is monotone, cannot beat the best, or holds just one extremum; otherwise returns the lower
-    /// bound of F on it: it must be halved. `best` is (t, F(t)).
+    /// Settles a stretch if it is monotone, cannot beat the best, or holds just one extremum; otherwise notes the lower
+    /// bound of F on it and answers that it must be halved. `best` is (t, F(t)).
     #[inline]
-    fn look(&self, stretch: &mut Stretch<S>, best: &mut (S, S)) -> Option<S> {
+    fn look(&self, stretch: &mut Stretch<S>, best: &mut (S, S)) -> bool {
         let mut signs = Signs::of(&stretch.g, &stretch.noise);
         let mut is_certain = true;
         if signs.decided() != Signs::full::<6>() {
             (signs, is_certain) = self.look_closer(stretch, best);
         }
         if is_certain && (signs.positive == 0 || signs.negative == 0) {
-            return None;
+            return false;
         }
         let changes = signs.changes();
         let one_extremum = signs.decided() == Signs::full::<6>() && changes.is_power_of_two();
         if one_extremum && signs.at(0) > 0 {
-            return None;
+            return false;
         }
         let width = stretch.hi.clone() - &stretch.lo;
         let (mut sum, mut least) = (S::zero(), S::zero());
@@ -250,18 +243,22 @@ impl<'b, S: Scalar> View<'b, S> {
         // F₀ + h Σ gᵢ/3; the coefficients are ten times too large
         let floor = (least * &S::ratio(1, 30) - &stretch.noise) * &width + &stretch.start;
         if floor >= worthwhile(&best.1) {
-            return None;
+            return false;
         }
         if !one_extremum {
-            return Some(floor);
+            stretch.floor = floor;
+            return true;
         }
         let start = bernstein::polygon_zero(&stretch.g, changes.trailing_zeros(), &stretch.lo, &stretch.hi);
-        let zero = in_bracket(|t| self.slope(t), stretch.lo.clone(), stretch.hi.clone(), true, start);
+        let start = Start { x: start, step: None };
+        let resolution = S::unit_roundoff().twice() * &stretch.hi;
+        let zero =
+            in_bracket(|t| self.slope(t), stretch.lo.clone(), stretch.hi.clone(), true, start, |_| resolution.clone());
         let value = self.distance_sq(&zero.x);
         if value < best.1 {
             *best = (zero.x, value);
         }
-        None
+        false
     }
 }
 

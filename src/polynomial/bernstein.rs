@@ -6,13 +6,23 @@
 //! bₙ = L·p(hi), the curve lies in the hull of its coefficients, and the number of sign variations bounds the number of
 //! roots inside, with equal parity (Lane and Riesenfeld 1981).
 //!
-//! **Rounding.** The change of basis errs by at most (n+2)u per unit of Σ|bᵢ's terms| ≤ L·Σ|aⱼ|; halving averages, and
-//! each of n levels rounds once, in proportion to coefficients which shrink with the piece. The bound carried along is
-//! 2N·u·L·Σ|aⱼ|reachʲ (twice that after a shift of the origin), with reach = the interval's end farther from 0; it also
-//! covers a rounding of every input coefficient, since p is taken to be known no better.
+//! **Rounding.** A piece carries a bound of the error of each of its coefficients, its *noise*, so what is beyond the noise
+//! has the sign that the exact polynomial's coefficient has; every word here about signs is a theorem. With n = N − 1, in
+//! units of u (times 1 + O(nu), which the rounding up of the constants pays for):
+//!
+//! * *change of basis*: one product and at most n sums lead to bᵢ, and the weights of |qⱼ| in it are at most L: N·L·Σ|qⱼ|;
+//! * *scaling to the interval*: qⱼ = cⱼwʲ with w = hi − lo rounded: at most 2n + 1 roundings of |qⱼ|;
+//! * *shift to the interval*: as in twice the precision (`twofold`), one rounding of |cⱼ| and 8N²u·Σ C(i,j)|aᵢ|loⁱ⁻ʲ; times
+//!   wʲ and summed over j the latter is at most 8N²u·Σ|aⱼ|hiʲ;
+//! * *halving*: n levels of averages of numbers of at most max |bᵢ| ≤ L·Σ|qⱼ| in modulus round once each: n·L·Σ|qⱼ| more for
+//!   each halving.
+//!
+//! What Σ|qⱼ| measures is the size of p *on the piece*: writing p anew on a short piece near a zero leaves little noise.
+//! Where nothing is to be proved about the given coefficients, N·u·L·Σ|aⱼ|hiʲ is added: about what the roundings
+//! do that lead to a coefficient, if the polynomial was multiplied out from roots.
 
-use super::Polynomial;
 use super::eval::descend;
+use super::{Polynomial, twofold};
 use crate::scalar::Scalar;
 use core::array::from_fn;
 
@@ -95,19 +105,29 @@ pub(crate) fn scale<S: Scalar, const N: usize>() -> S {
     S::int(Binomials::<N>::MULTIPLE)
 }
 
-/// The coefficients of both halves, by de Casteljau's scheme at ½.
+/// Replaces coefficients by those of the right half and writes those of the left half beside, by de Casteljau's scheme at ½.
+///
+/// In place, since arrays that were just computed are slow to move. Sums are halved at the end, all at once, by powers of two:
+/// the same numbers in fewer steps.
 #[inline]
-pub(crate) fn halve<S: Scalar, const N: usize>(b: [S; N]) -> ([S; N], [S; N]) {
-    let mut right = b;
-    let left = from_fn(|k| {
-        let first = right[0].clone();
+pub(crate) fn halve<S: Scalar, const N: usize>(b: &mut [S; N], left: &mut [S; N]) {
+    for (k, l) in left.iter_mut().enumerate() {
+        *l = b[0].clone().mul_pow2(-places(k));
         for i in 0..N - 1 - k {
-            let sum = right[i].clone() + &right[i + 1];
-            right[i] = sum.half();
+            let sum = b[i].clone() + &b[i + 1];
+            b[i] = sum;
         }
-        first
-    });
-    (left, right)
+    }
+    for (i, c) in b.iter_mut().enumerate() {
+        *c = c.clone().mul_pow2(-places(N - 1 - i));
+    }
+}
+
+/// A number below N as an exponent.
+#[inline]
+#[allow(clippy::cast_possible_wrap, clippy::cast_possible_truncation, reason = "below N ≤ 16")]
+const fn places(k: usize) -> i32 {
+    k as i32
 }
 
 /// Where the control polygon over [lo, hi] crosses zero between coefficients i and i + 1, which have opposite signs: a
@@ -171,6 +191,17 @@ impl Signs {
     }
 }
 
+/// What is taken to be known of the coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Given {
+    /// They are known up to the few roundings that computing them takes: less is not told apart.
+    Rounded,
+    /// They are known up to one rounding each.
+    Once,
+    /// They are these very numbers.
+    Exactly,
+}
+
 /// A polynomial in Bernstein form on [lo, hi], 0 ≤ lo < hi, with the noise of its coefficients.
 #[derive(Clone, Debug)]
 pub(crate) struct Piece<S, const N: usize> {
@@ -182,50 +213,74 @@ pub(crate) struct Piece<S, const N: usize> {
     pub(crate) hi: S,
     /// Bound of the error of every coefficient.
     pub(crate) noise: S,
-    /// The upper end of the interval the noise was computed for.
-    pub(crate) reach: S,
+    /// What each halving adds to it.
+    pub(crate) growth: S,
+    /// Writing the polynomial anew would not help.
+    pub(crate) settled: bool,
 }
 
 impl<S: Scalar, const N: usize> Piece<S, N> {
     /// p on [0, 1]; `weight` is Σ|aⱼ|.
     #[inline]
     pub(crate) fn unit(p: &Polynomial<S, N>, weight: &S) -> Self {
-        let noise = Self::noise_per_weight() * weight;
-        Self { b: on_unit(&p.coefficients), lo: S::zero(), hi: S::one(), noise, reach: S::one() }
+        let noise = Self::roundings(N + 1) * weight;
+        let growth = Self::roundings(N) * weight;
+        Self { b: on_unit(&p.coefficients), lo: S::zero(), hi: S::one(), noise, growth, settled: false }
     }
 
-    /// p on [lo, hi], 0 ≤ lo < hi.
-    pub(crate) fn seated(p: &Polynomial<S, N>, lo: S, hi: S) -> Self {
-        let noise = Self::noise_per_weight().twice() * &p.magnitude(&hi);
-        Self { b: on_interval(p, &lo, &hi), lo, hi: hi.clone(), noise, reach: hi }
+    /// p on [lo, hi], 0 ≤ lo < hi ≤ 2.
+    pub(crate) fn seated(p: &Polynomial<S, N>, lo: S, hi: S, given: Given) -> Self {
+        let width = hi.clone() - &lo;
+        let mut q = if lo.is_zero() { p.coefficients.clone() } else { twofold::taylor(p, &lo).coefficients };
+        let (mut power, mut local) = (S::one(), S::zero());
+        for c in &mut q {
+            *c = c.clone() * &power;
+            local = local + &c.clone().abs();
+            power = power * &width;
+        }
+        let magnitude = p.magnitude(&hi);
+        let mut noise = Self::roundings(3 * N + 2) * &local;
+        if !lo.is_zero() {
+            noise = noise + &(Self::roundings(2) * &twofold::residue::<S, N>() * &magnitude);
+        }
+        match given {
+            Given::Rounded => noise = noise + &(Self::roundings(N) * &magnitude),
+            Given::Once => noise = noise + &(Self::roundings(1) * &magnitude),
+            Given::Exactly if twofold::is_in_range(&magnitude) => {}
+            // nothing is certain
+            Given::Exactly => noise = S::infinity(),
+        }
+        let growth = Self::roundings(N) * &local;
+        Self { b: on_unit(&q), lo, hi, noise, growth, settled: false }
     }
 
-    /// All coefficients are beyond the noise on one side: no root.
+    /// p(hi) may be zero but for what [`super::ends`] allows; `weight` is Σ|aⱼ|hiʲ.
     #[inline]
-    pub(crate) fn excludes_zero(&self) -> bool {
-        let signs = Signs::of(&self.b, &self.noise);
-        signs.positive == Signs::full::<N>() || signs.negative == Signs::full::<N>()
+    pub(crate) fn may_vanish_at_end(&self, weight: &S) -> bool {
+        self.b[N - 1].clone().abs() <= Self::roundings(3 * N) * weight
     }
 
-    /// 2N·u·L.
+    /// k·u·L.
     #[inline]
-    fn noise_per_weight() -> S {
-        let n = i32::try_from(2 * N).unwrap_or(i32::MAX);
-        S::unit_roundoff() * &(S::int(n) * &scale::<S, N>())
+    fn roundings(k: usize) -> S {
+        let k = i32::try_from(k).unwrap_or(i32::MAX);
+        S::unit_roundoff() * &(S::int(k) * &scale::<S, N>())
     }
 
-    /// Both halves; `None` if there is no number strictly between the ends.
+    /// Cuts itself to its right half and `left`, a copy of it, to its left half; `false` if there is no number strictly between
+    /// the ends.
     #[inline]
-    pub(crate) fn halves(self) -> Result<(Self, Self), Self> {
+    pub(crate) fn halve(&mut self, left: &mut Self) -> bool {
         let mid = S::midpoint(&self.lo, &self.hi);
         if !(self.lo < mid && mid < self.hi) {
-            return Err(self);
+            return false;
         }
-        let (l, r) = halve(self.b);
-        Ok((
-            Self { b: l, lo: self.lo, hi: mid.clone(), noise: self.noise.clone(), reach: self.reach.clone() },
-            Self { b: r, lo: mid, hi: self.hi, noise: self.noise, reach: self.reach },
-        ))
+        halve(&mut self.b, &mut left.b);
+        self.noise = self.noise.clone() + &self.growth;
+        left.noise = self.noise.clone();
+        left.hi = mid.clone();
+        self.lo = mid;
+        true
     }
 }
 
@@ -246,11 +301,12 @@ mod tests {
         // t³: Bernstein coefficients 0, 0, 0, 1 (times L = 3)
         let b = on_unit(&[0.0_f64, 0.0, 0.0, 1.0]);
         assert_eq!(b, [0.0, 0.0, 0.0, 3.0]);
-        let (l, r) = halve(b);
+        let (mut l, mut r) = (b, b);
+        halve(&mut r, &mut l);
         assert_eq!(l, [0.0, 0.0, 0.0, 0.375]);
         assert_eq!(r, [0.375, 0.75, 1.5, 3.0]);
         let p = Polynomial::new([0.0_f64, 0.0, 0.0, 1.0]);
-        assert_eq!(Piece::seated(&p, 0.5, 1.0).b, r, "seated on the right half");
+        assert_eq!(Piece::seated(&p, 0.5, 1.0, Given::Rounded).b, r, "seated on the right half");
     }
 
     #[test]

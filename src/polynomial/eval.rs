@@ -45,6 +45,28 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
         (value, slope)
     }
 
+    /// p(x), p'(x) and p''(x)/2, errors as for [`Polynomial::eval`] but for a factor of about 2.
+    ///
+    /// In y = x² both E and O of p(x) = E(y) + x·O(y) take half as many steps, side by side:
+    /// p' = O + 2yO' + 2xE' and p''/2 = E' + 4y(E''/2) + x(3O' + 4y(O''/2)).
+    #[inline]
+    pub(crate) fn jet(&self, x: &S) -> (S, S, S) {
+        let y = x.clone().square();
+        // value, derivative, half the second derivative of the even and the odd part
+        let mut parts = [[S::zero(), S::zero(), S::zero()], [S::zero(), S::zero(), S::zero()]];
+        for (j, c) in self.coefficients.iter().enumerate().rev() {
+            let [v, d, h] = &mut parts[j % 2];
+            *h = h.clone() * &y + &*d;
+            *d = d.clone() * &y + &*v;
+            *v = v.clone() * &y + c;
+        }
+        let [[e, e1, e2], [o, o1, o2]] = parts;
+        let slope = y.clone() * &o1.clone().twice() + &o + &(x.clone().twice() * &e1);
+        let outer = y.clone().mul_pow2(2);
+        let bend = outer.clone() * &e2 + &e1 + &((outer * &o2 + &(o1.clone().twice() + &o1)) * x);
+        (o * x + &e, slope, bend)
+    }
+
     /// Σ|aⱼ| |x|ʲ: times the unit roundoff, what rounding each coefficient may change p(x) by.
     #[inline]
     pub fn magnitude(&self, x: &S) -> S {
@@ -98,6 +120,10 @@ mod tests {
         assert_eq!(p.eval(&2.0), 29.0);
         assert_eq!(p.eval_with_derivative(&2.0), (29.0, 46.0));
         assert_eq!(p.taylor(&2.0).coefficients, [29.0, 46.0, 24.0, 4.0]);
+        assert_eq!(p.jet(&2.0), (29.0, 46.0, 24.0));
+        let sixth = Polynomial::new([3.0_f64, -1.0, 4.0, 1.0, -5.0, 9.0, 2.0]);
+        let [c0, c1, c2, ..] = sixth.taylor(&-3.0).coefficients;
+        assert_eq!(sixth.jet(&-3.0), (c0, c1, c2));
         assert_eq!(p.magnitude(&-2.0), 37.0);
         assert_eq!(p.mirrored().eval(&-2.0), 29.0);
         assert_eq!(p.reversed().coefficients, [4.0, 0.0, -2.0, 1.0]);

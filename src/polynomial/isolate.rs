@@ -8,13 +8,15 @@
 //! satisfy m·P ≤ E·(1−P), hence sᵏ ≤ E/(E+m): the roots, k at most by the rule of signs, lie in a short bracket at that
 //! end, and nothing is left for the rest of the piece.
 //!
-//! Noise falls toward 0 (it is Σ|aⱼ|xʲ in size), so before a bracket that ends below four fifths of its piece's reach
-//! is given up as a cluster, the polynomial is written anew on that bracket and isolation continues there.
+//! The first piece is written in the scalar's own precision, with noise in proportion to the whole of p. Before a bracket is
+//! given up as a cluster, p is written anew on it, as if in twice the precision: what is left of the noise then is what is
+//! taken to be unknown of the coefficients (or, if they are taken as [`Given::Exactly`], a multiple of u²). Isolation goes on
+//! until all coefficients of a piece are below twice that, or signs are clear.
 //!
 //! Work is bounded by a number of steps; what is left when they are spent is reported as clusters, never dropped.
 
 use super::Polynomial;
-use super::bernstein::{self, Piece, Signs};
+use super::bernstein::{self, Given, Piece, Signs};
 use crate::buffer::Keep;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -23,10 +25,12 @@ use arrayvec::ArrayVec;
 /// those without roots are thrown out; the others are fewer than N by the rule of signs, but for noise.
 const PENDING: usize = 32;
 
-/// A piece with undecided signs is given up when all its coefficients are below 2^NOISY times the noise. Without this
+/// A piece with undecided signs is written anew when all its coefficients are below 2^NOISY times the noise. Without this
 /// margin the search would follow the place where |p| crosses the noise level, which is not a root, down to the last bit.
-/// The price is a bracket at most 4 times (double root) to 2 times (quadruple root) wider than noise demands.
 const NOISY: i32 = 4;
+
+/// The same for pieces whose noise can not be made smaller: these are given up.
+const SETTLED: i32 = 1;
 
 /// What a bracket holds.
 #[derive(Clone, Debug)]
@@ -56,8 +60,9 @@ pub(super) struct Isolated<S> {
 enum Verdict<S> {
     /// No root; the sign of p.
     None(i8),
-    /// One root; the index i of the coefficient before the change, if the change is between neighbours.
-    One(Option<u32>),
+    /// One root; the index i of the coefficient before the change, if the change is between neighbours, and the sign of p
+    /// before it.
+    One(Option<u32>, i8),
     /// Not decided: halve.
     Halve,
     /// All roots of the piece (k at most) lie within this share of its width from its lower end.
@@ -68,20 +73,23 @@ enum Verdict<S> {
     Noise,
 }
 
-/// Brackets in ascending order, as they are found.
-struct Record<S, const N: usize> {
-    found: ArrayVec<Isolated<S>, N>,
+/// Brackets on their way out, in ascending order.
+struct Record<S, F> {
+    /// Takes them.
+    out: F,
+    /// The last one, while it is a cluster that may still grow or learn the sign behind it.
+    open: Option<Isolated<S>>,
     /// Sign of p at the right end of what has been searched so far.
     sign: i8,
     /// Signs of p from the upper ends of brackets that are searched once more, innermost last.
     beyond: ArrayVec<(S, i8), PENDING>,
 }
 
-impl<S: Scalar, const N: usize> Record<S, N> {
+impl<S: Scalar, F: FnMut(Isolated<S>)> Record<S, F> {
     /// A stretch was searched whose signs at its ends are these.
     #[inline]
     fn pass(&mut self, first: i8, last: i8) {
-        if let Some(previous) = self.found.last_mut()
+        if let Some(previous) = &mut self.open
             && previous.after == 0
         {
             previous.after = first;
@@ -105,13 +113,22 @@ impl<S: Scalar, const N: usize> Record<S, N> {
     #[inline]
     fn one(&mut self, lower: S, upper: S, before: i8, start: S) {
         self.pass(before, -before);
-        self.push(Isolated { lower, upper, before, after: -before, found: Found::One(start) });
+        self.close();
+        (self.out)(Isolated { lower, upper, before, after: -before, found: Found::One(start) });
+    }
+
+    /// Nothing more can be learnt about the last cluster.
+    #[inline]
+    fn close(&mut self) {
+        if let Some(cluster) = self.open.take() {
+            (self.out)(cluster);
+        }
     }
 
     /// Unresolved roots; joined to an unresolved neighbour which they touch.
     #[cold]
     fn cluster(&mut self, lower: S, upper: S, before: i8, after: i8, count: usize) {
-        if let Some(previous) = self.found.last_mut()
+        if let Some(previous) = &mut self.open
             && let Found::Cluster(other) = previous.found
             && previous.upper >= lower
         {
@@ -123,136 +140,160 @@ impl<S: Scalar, const N: usize> Record<S, N> {
         }
         let before = if before == 0 { self.sign } else { before };
         self.pass(before, after);
-        self.push(Isolated { lower, upper, before, after, found: Found::Cluster(count) });
-    }
-
-    /// Appends; where noise has made more brackets than there can be roots, the last one grows instead.
-    #[inline]
-    fn push(&mut self, next: Isolated<S>) {
-        if let Err(full) = self.found.try_push(next) {
-            let next = full.element();
-            if let Some(last) = self.found.last_mut() {
-                last.upper = next.upper;
-                last.after = next.after;
-                last.found = Found::Cluster(0);
-            }
-        }
+        self.close();
+        self.open = Some(Isolated { lower, upper, before, after, found: Found::Cluster(count) });
     }
 }
 
 /// Brackets of all roots of p on `first`, ascending; `p` is the polynomial the piece was made from and p(0) ≠ 0.
 #[inline]
-pub(super) fn isolate<S: Scalar, const N: usize>(p: &Polynomial<S, N>, first: Piece<S, N>) -> ArrayVec<Isolated<S>, N> {
-    let mut record = Record { found: ArrayVec::new(), sign: 0, beyond: ArrayVec::new() };
-    let mut pending: ArrayVec<Piece<S, N>, PENDING> = ArrayVec::new();
-    let mut current = Some(first);
-    let steps = 2 * N * (S::BITS as usize + 16);
-    for _ in 0..steps {
-        let Some(piece) = current.take().or_else(|| pending.pop()) else {
-            record.arrive(None);
-            return record.found;
-        };
-        record.arrive(Some(&piece.lo));
-        match judge(&piece) {
+pub(super) fn isolate<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    first: Piece<S, N>,
+    given: Given,
+    out: impl FnMut(Isolated<S>),
+) {
+    let mut verdict = judge(&first);
+    if matches!(verdict, Verdict::None(_)) {
+        return;
+    }
+    let mut record = Record { out, open: None, sign: 0, beyond: ArrayVec::new() };
+    // the last one is the leftmost
+    let mut pieces: ArrayVec<Piece<S, N>, PENDING> = ArrayVec::new();
+    pieces.push(first);
+    for _ in 0..2 * N * (S::BITS as usize + 16) {
+        let Some(piece) = pieces.last() else { break };
+        if !record.beyond.is_empty() {
+            record.arrive(Some(&piece.lo));
+        }
+        match verdict {
             Verdict::None(sign) => record.pass(sign, sign),
-            Verdict::One(change) => {
-                let before = Signs::of(&piece.b, &piece.noise).at(0);
+            Verdict::One(change, before) => {
+                let (lower, upper) = (piece.lo.clone(), piece.hi.clone());
                 let start = match change {
-                    Some(i) => bernstein::polygon_zero(&piece.b, i, &piece.lo, &piece.hi),
-                    None => S::midpoint(&piece.lo, &piece.hi),
+                    Some(i) => bernstein::polygon_zero(&piece.b, i, &lower, &upper),
+                    None => S::midpoint(&lower, &upper),
                 };
-                record.one(piece.lo, piece.hi, before, start);
+                record.one(lower, upper, before, start);
             }
             Verdict::Halve => {
-                if pending.is_full() {
-                    make_room(&mut pending);
+                if pieces.is_full() {
+                    make_room(&mut pieces);
                 }
-                if pending.is_full() {
-                    record.cluster(piece.lo, piece.hi, 0, 0, 0);
-                    continue;
-                }
-                match piece.halves() {
-                    Ok((left, right)) => {
-                        pending.keep(right);
-                        current = Some(left);
+                let copy = pieces.last().cloned();
+                if let Some(copy) = copy
+                    && pieces.try_push(copy).is_ok()
+                {
+                    if let [.., right, left] = pieces.as_mut_slice()
+                        && right.halve(left)
+                    {
+                        verdict = judge(left);
+                        continue;
                     }
-                    Err(piece) => record.cluster(piece.lo, piece.hi, 0, 0, 0),
+                    pieces.truncate(pieces.len() - 1);
+                }
+                if let Some(piece) = pieces.last() {
+                    record.cluster(piece.lo.clone(), piece.hi.clone(), 0, 0, 0);
                 }
             }
-            unresolved => current = settle(p, piece, unresolved, &mut record),
+            unresolved => {
+                if let Some(anew) = settle(p, piece, unresolved, given, &mut record)
+                    && let Some(piece) = pieces.last_mut()
+                {
+                    *piece = anew;
+                    verdict = judge(piece);
+                    continue;
+                }
+            }
         }
+        pieces.truncate(pieces.len().saturating_sub(1));
+        let Some(piece) = pieces.last() else { break };
+        verdict = judge(piece);
     }
-    for piece in current.into_iter().chain(pending.into_iter().rev()) {
+    // steps have run out, or nothing is left
+    while let Some(piece) = pieces.pop() {
         record.cluster(piece.lo, piece.hi, 0, 0, 0);
     }
-    record.found
+    record.arrive(None);
+    record.close();
 }
 
-/// Throws out waiting pieces without roots; no sign changes on them, so nothing else is lost.
+/// Throws out pieces without roots; no sign changes on them, so nothing else is lost.
 #[cold]
-fn make_room<S: Scalar, const N: usize>(pending: &mut ArrayVec<Piece<S, N>, PENDING>) {
-    pending.retain(|piece| !matches!(judge(piece), Verdict::None(_)));
+fn make_room<S: Scalar, const N: usize>(pieces: &mut ArrayVec<Piece<S, N>, PENDING>) {
+    pieces.retain(|piece| !matches!(judge(piece), Verdict::None(_)));
 }
 
 /// Records a cluster, or writes p anew where that would show more.
 #[cold]
 fn settle<S: Scalar, const N: usize>(
     p: &Polynomial<S, N>,
-    piece: Piece<S, N>,
+    piece: &Piece<S, N>,
     verdict: Verdict<S>,
-    record: &mut Record<S, N>,
+    given: Given,
+    record: &mut Record<S, impl FnMut(Isolated<S>)>,
 ) -> Option<Piece<S, N>> {
     let signs = Signs::of(&piece.b, &piece.noise);
     let last = u32::try_from(N).unwrap_or(1).saturating_sub(1);
     let width = piece.hi.clone() - &piece.lo;
+    let (lo, hi) = (piece.lo.clone(), piece.hi.clone());
     let (lower, upper, before, after, count) = match verdict {
-        Verdict::AtLower(share, count) => {
-            let upper = piece.lo.clone() + &(width * &share);
-            (piece.lo, upper, 0, signs.at(last), count)
+        Verdict::AtLower(share, count) => (lo.clone(), lo + &(width * &share), 0, signs.at(last), count),
+        Verdict::AtUpper(share, count) => (hi.clone() - &(width * &share), hi, signs.at(0), 0, count),
+        _ if piece.settled => {
+            record.cluster(lo, hi, 0, 0, 0);
+            return None;
         }
-        Verdict::AtUpper(share, count) => {
-            let lower = piece.hi.clone() - &(width * &share);
-            (lower, piece.hi, signs.at(0), 0, count)
-        }
-        _ => (piece.lo, piece.hi, 0, 0, 0),
+        _ => (lo, hi, 0, 0, 0),
     };
-    if lower < upper && upper.clone() * &S::ratio(5, 4) <= piece.reach {
-        if before != 0 {
-            record.pass(before, before);
-        }
-        if after != 0 {
-            // Without room the parity of what is found stays unknown, nothing else.
-            let _ = record.beyond.try_push((upper.clone(), after));
-        }
-        return Some(Piece::seated(p, lower, upper));
+    if lower >= upper {
+        record.cluster(lower, upper, before, after, count);
+        return None;
     }
-    record.cluster(lower, upper, before, after, count);
-    None
+    if before != 0 {
+        record.pass(before, before);
+    }
+    if after != 0 {
+        // Without room the parity of what is found stays unknown, nothing else.
+        let _ = record.beyond.try_push((upper.clone(), after));
+    }
+    let mut anew = Piece::seated(p, lower, upper, given);
+    let helps = anew.noise.clone() * &S::ratio(4, 3) < piece.noise;
+    anew.settled = count == 0 && !helps;
+    Some(anew)
 }
 
 /// Reads the sign pattern of a piece.
 #[inline]
 fn judge<S: Scalar, const N: usize>(piece: &Piece<S, N>) -> Verdict<S> {
-    let signs = Signs::of(&piece.b, &piece.noise);
-    let full = Signs::full::<N>();
-    if signs.positive == full {
-        return Verdict::None(1);
+    // the common case, all signs known, in few steps
+    let mut least = S::infinity();
+    let mut negative = 0;
+    for (i, c) in piece.b.iter().enumerate() {
+        least = c.clone().abs().min(least);
+        negative |= u32::from(*c < S::zero()) << i;
     }
-    if signs.negative == full {
-        return Verdict::None(-1);
+    let all_known = least > piece.noise;
+    if !all_known {
+        return judge_noisy(piece);
     }
-    if signs.decided() == full {
-        let changes = signs.changes();
-        return if changes.is_power_of_two() { Verdict::One(Some(changes.trailing_zeros())) } else { Verdict::Halve };
+    let before = if negative & 1 == 0 { 1 } else { -1 };
+    let changes = (negative ^ (negative >> 1)) & (Signs::full::<N>() >> 1);
+    if changes == 0 {
+        Verdict::None(before)
+    } else if changes.is_power_of_two() {
+        Verdict::One(Some(changes.trailing_zeros()), before)
+    } else {
+        Verdict::Halve
     }
-    judge_noisy(piece, signs)
 }
 
 /// Reads a sign pattern with undecided coefficients in it.
 #[cold]
-fn judge_noisy<S: Scalar, const N: usize>(piece: &Piece<S, N>, signs: Signs) -> Verdict<S> {
+fn judge_noisy<S: Scalar, const N: usize>(piece: &Piece<S, N>) -> Verdict<S> {
+    let signs = Signs::of(&piece.b, &piece.noise);
     let decided = signs.decided();
-    let ceiling = piece.noise.clone().mul_pow2(NOISY);
+    let ceiling = piece.noise.clone().mul_pow2(if piece.settled { SETTLED } else { NOISY });
     if piece.b.iter().all(|c| c.clone().abs() <= ceiling) {
         return Verdict::Noise;
     }
@@ -273,7 +314,7 @@ fn judge_noisy<S: Scalar, const N: usize>(piece: &Piece<S, N>, signs: Signs) -> 
     match (leading, trailing, most) {
         (0, 0, 1) => {
             let changes = signs.changes();
-            Verdict::One((changes != 0).then(|| changes.trailing_zeros()))
+            Verdict::One((changes != 0).then(|| changes.trailing_zeros()), signs.at(0))
         }
         (k, 0, 0) => match share(piece, decided, k) {
             Some(share) => Verdict::AtLower(share, k as usize),

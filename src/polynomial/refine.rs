@@ -1,32 +1,56 @@
 //! Refinement of isolated roots.
 //!
-//! A root with a change of sign is finished by Newton's method inside its bracket; the bracket returned is the
-//! isolating one cut to the root's own uncertainty.
+//! A root with a change of sign is found by Halley's method inside its bracket, first with values in the scalar's own
+//! precision, in the end with values as if in twice that precision: so it comes out rounded correctly but for about one unit
+//! in the last place, however ill-conditioned it is up to a condition of 1/u. The bracket returned is the isolating one cut
+//! to that.
 //!
 //! A k-fold root is ill-conditioned, but the root of the (k−1)-st derivative inside its bracket is simple; it is the
 //! mean of the cluster up to second order, and it is what is returned as the value.
+//!
+//! **Width of clusters.** Isolation answers with stretches where |p| is some roundings at most. What is in there for the
+//! coefficients as given is looked at in twice the precision.
+//!
+//! * If all real roots are within 2ρ of the mean, or there is none, it is one cluster, and 2ρ on both sides of its mean are
+//!   its bracket: no wider than four attainable errors ρ = min over j of (η/|cⱼ|)^(1/j), η = u·Σ|aⱼ||x|ʲ, cⱼ the Taylor
+//!   coefficients there. No power of a fraction is needed: r ≤ 2ρ says |cⱼ|(r/2)ʲ ≤ η for all j.
+//! * If there are as many as there seemed to be, they can be told apart and are reported each by itself.
+//! * Otherwise some have left the real line. Then it is told apart what one rounding of each coefficient leaves: what isolation
+//!   cannot resolve is a stretch with |p| ≤ 2η(1 + small). Where p is like c·∏(x − zᵢ) with k factors, Pólya's
+//!   inequality (1928) says that {x: |p| ≤ 2η} has a length of at most 4(2η/2c)^(1/k) = 4ρₖ, ρₖ = (η/c)^(1/k) being the attainable
+//!   error of a k-fold root.
 
-use super::isolate::{Found, Isolated};
-use super::newton::{Zero, in_bracket};
-use super::{Polynomial, Root, RootKind};
+use super::bernstein::{Given, Piece};
+use super::isolate::{Found, Isolated, isolate};
+use super::newton::{Start, Zero, in_bracket};
+use super::roots::push;
+use super::{Polynomial, Root, RootKind, twofold};
 use crate::scalar::Scalar;
+use arrayvec::ArrayVec;
 
 /// Rounds of looking for the order and the middle of a cluster.
 const ROUNDS: usize = 4;
 
-/// The root or cluster in an isolated bracket.
-#[inline]
-pub(super) fn refine<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: Isolated<S>) -> Root<S> {
-    match isolated.found {
-        Found::One(start) => crossing(p, isolated.lower, isolated.upper, isolated.after > 0, start),
-        Found::Cluster(count) => cluster(p, &isolated, count),
-    }
-}
-
 /// The one root in [lower, upper], where p changes its sign; `rising`: from − to +.
 #[inline]
-fn crossing<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: S, upper: S, rising: bool, start: S) -> Root<S> {
-    let Zero { x, slope } = in_bracket(|x| p.eval_with_derivative(x), lower.clone(), upper.clone(), rising, start);
+pub(super) fn crossing<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    lower: S,
+    upper: S,
+    rising: bool,
+    start: S,
+) -> Root<S> {
+    let half_way = S::one().mul_pow2(-(S::BITS / 2).cast_signed());
+    let start = Start { x: start, step: None };
+    let rough = in_bracket(|x| p.jet(x), lower.clone(), upper.clone(), rising, start, |x| x.clone().abs() * &half_way);
+    let start = Start { x: rough.x, step: Some(rough.step) };
+    let precise = |x: &S| {
+        let (_, slope, bend) = p.jet(x);
+        (twofold::value(p, x), slope, bend)
+    };
+    let enough = S::unit_roundoff().mul_pow2(-4);
+    let Zero { x, slope, .. } =
+        in_bracket(precise, lower.clone(), upper.clone(), rising, start, |x| x.clone().abs() * &enough);
     let radius = spread(p, &x, &slope);
     Root {
         lower: lower.max(x.clone() - &radius),
@@ -36,21 +60,80 @@ fn crossing<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: S, upper: S,
     }
 }
 
-/// How far rounding may move a simple root: twice the noise of p over its slope, and the resolution of x.
+/// What a simple root may be off by: one unit in the last place of x (1.4u|x| comes to that, rounded), and what values in
+/// twice the precision leave.
 #[inline]
-fn spread<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S, slope: &S) -> S {
+pub(super) fn spread<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S, slope: &S) -> S {
     let slope = slope.clone().abs();
-    let ulps = S::unit_roundoff().mul_pow2(2);
     if slope.is_zero() {
         return S::infinity();
     }
-    let noise = S::int(i32::try_from(N).unwrap_or(i32::MAX)) * &p.magnitude(x);
-    (noise / &slope + &x.clone().abs()) * &ulps
+    let rest = twofold::residue::<S, N>() * &p.magnitude(x) / &slope;
+    (rest + &(x.clone().abs() * &S::ratio(7, 5))) * &S::unit_roundoff()
+}
+
+/// Roots that isolation could not tell apart: one cluster, or after a closer look several findings.
+#[cold]
+pub(super) fn cluster<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    isolated: &Isolated<S>,
+    count: usize,
+    out: &mut impl FnMut(Root<S>),
+) {
+    let Isolated { lower, upper, .. } = isolated;
+    let together = group(p, isolated, count);
+    if lower >= upper || together.kind == RootKind::Simple {
+        return out(together);
+    }
+    let apart = closer(p, lower, upper, Given::Exactly);
+    let radius = attainable(p, &together.value, upper.clone() - lower);
+    let (from, to) = (together.value.clone() - &radius, together.value.clone() + &radius);
+    let multiplicity = |roots: &[Root<S>]| -> usize { roots.iter().map(|r| usize::from(r.kind.multiplicity())).sum() };
+    if apart.iter().all(|root| from <= root.lower && root.upper <= to) {
+        let (lower, upper) = (lower.clone().max(from), upper.clone().min(to));
+        out(Root { lower, upper, ..together });
+    } else if multiplicity(&apart) >= usize::from(together.kind.multiplicity()) {
+        apart.into_iter().for_each(out);
+    } else {
+        closer(p, lower, upper, Given::Once).into_iter().for_each(out);
+    }
+}
+
+/// What is in a bracket for coefficients known better.
+fn closer<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S, given: Given) -> ArrayVec<Root<S>, N> {
+    let mut found = ArrayVec::new();
+    isolate(p, Piece::seated(p, lower.clone(), upper.clone(), given), given, |isolated| {
+        let root = match isolated.found {
+            Found::One(start) => crossing(p, isolated.lower, isolated.upper, isolated.after > 0, start),
+            Found::Cluster(count) => group(p, &isolated, count),
+        };
+        push(&mut found, root);
+    });
+    found
+}
+
+/// Two attainable errors at x, rounded down by up to a quarter; `most` if it is less.
+fn attainable<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S, most: S) -> S {
+    let allowed = S::unit_roundoff() * &p.magnitude(x);
+    let c = twofold::taylor(p, x).coefficients;
+    let mut radius = most;
+    for _ in 0..8 * S::BITS {
+        let half = radius.clone().half();
+        let mut power = S::one();
+        let fits = c.iter().skip(1).all(|c| {
+            power = power.clone() * &half;
+            c.clone().abs() * &power <= allowed
+        });
+        if fits {
+            break;
+        }
+        radius = radius * &S::ratio(3, 4);
+    }
+    radius
 }
 
 /// Roots too close to be told apart: how many, where, crossing or touching.
-#[cold]
-fn cluster<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<S>, count: usize) -> Root<S> {
+fn group<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<S>, count: usize) -> Root<S> {
     let Isolated { lower, upper, before, after, .. } = isolated;
     let centre = S::midpoint(lower, upper);
     let degree = p.degree().unwrap_or(0).max(1);
@@ -87,13 +170,31 @@ fn cluster<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<
         _ => RootKind::Cluster(u8::try_from(k).unwrap_or(u8::MAX)),
     };
     if k == 1 {
-        let (_, slope) = p.eval_with_derivative(&x);
-        let radius = spread(p, &x, &slope);
-        let lower = lower.clone().max(x.clone() - &radius);
-        let upper = upper.clone().min(x.clone() + &radius);
-        return Root { value: x, lower, upper, kind };
+        let root = at_end(p, lower, upper, x);
+        let is_inside = *lower < root.lower && root.upper < *upper;
+        if !is_inside || twofold::sign(p, &root.lower) * twofold::sign(p, &root.upper) < 0 {
+            return root;
+        }
+        let kind = RootKind::Cluster(u8::try_from(degree.min(2)).unwrap_or(1));
+        return Root { value: root.value, lower: lower.clone(), upper: upper.clone(), kind };
     }
     Root { value: x, lower: lower.clone(), upper: upper.clone(), kind }
+}
+
+/// A simple root at an end of the interval asked for, perhaps just outside of it: then its place is that end.
+fn at_end<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S, start: S) -> Root<S> {
+    let mut x = start;
+    let mut slope = S::zero();
+    for _ in 0..ROUNDS {
+        slope = p.eval_with_derivative(&x).1;
+        if slope.is_zero() {
+            break;
+        }
+        x = (x.clone() - &(twofold::value(p, &x) / &slope)).clamp(lower.clone(), upper.clone());
+    }
+    let radius = spread(p, &x, &slope);
+    let (lower, upper) = (lower.clone().max(x.clone() - &radius), upper.clone().min(x.clone() + &radius));
+    Root { value: x, lower, upper, kind: RootKind::Simple }
 }
 
 /// The order k ≥ 1 whose Taylor term is largest at this distance from a point: about a k-fold root the k-th leads, from a

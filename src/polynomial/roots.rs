@@ -2,20 +2,23 @@
 //!
 //! The isolator works on intervals 0 ≤ lo < hi of moderate size and needs p(0) ≠ 0. Everything else is brought there
 //! exactly: zeros of the lowest coefficients are roots at 0 and are divided out; negative roots are those of p(−x);
-//! roots beyond [`NEAR`] are reciprocals of those of the reversed polynomial in [1/hi, 1], where nothing can overflow and
-//! where leading coefficients that vanish or nearly vanish are roots at or near t = 0, that is, x = ∞.
+//! roots beyond a [`border`] are reciprocals of those of the reversed polynomial in [1/hi, 1/border], where nothing can overflow
+//! and where leading coefficients that vanish or nearly vanish are roots at or near t = 0, that is, x = ∞.
 
-use super::Polynomial;
-use super::bernstein::Piece;
-use super::isolate::isolate;
-use super::refine::refine;
+use super::bernstein::{Given, Piece};
+use super::isolate::{Found, isolate};
+use super::refine::{cluster, crossing};
+use super::{Polynomial, ends};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 use core::array::from_fn;
 use core::fmt;
 
-/// Intervals up to here are searched directly, larger ones through reciprocals.
-const NEAR: i32 = 16;
+/// Intervals up to here are searched directly, the rest through reciprocals. Some number near 1 that nobody has a root at: one
+/// there would be found from both sides, which costs time.
+pub(super) fn border<S: Scalar>() -> S {
+    S::ratio(127, 93)
+}
 
 /// What is known about the roots in a bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,8 +101,10 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
         if Self::is_comfortable(&weight) && !self.coefficients[0].is_zero() {
             let mut roots = Roots::new();
             let piece = Piece::unit(self, &weight);
-            if !piece.excludes_zero() {
-                search(self, piece, &mut roots);
+            let at_end = piece.may_vanish_at_end(&weight);
+            search(self, piece, &mut roots);
+            if at_end {
+                ends::check(self, &S::one(), false, &mut roots);
             }
             return Ok(roots);
         }
@@ -118,24 +123,29 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
         if !(lo.is_finite() && hi.is_finite() && lo < hi) {
             return Err(RootsError::BadInterval);
         }
-        self.prepared()?.search_line(lo, hi)
+        let p = self.prepared()?;
+        let mut roots = p.search_line(lo, hi)?;
+        let (p, _) = p.without_zeros();
+        ends::check(&p, lo, true, &mut roots);
+        ends::check(&p, hi, false, &mut roots);
+        Ok(roots)
     }
 
-    /// All real roots, ascending: those in [−R, R] with R = [`Polynomial::root_bound`], which holds them all. A root
-    /// whose value exceeds the range of the scalar is left out.
+    /// All real roots, ascending. A root whose value exceeds the range of the scalar is left out. Brackets lie inside
+    /// [−R, R], R = [`Polynomial::root_bound`].
     ///
     /// # Errors
     /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
     pub fn real_roots(&self) -> Result<Roots<S, N>, RootsError> {
         let p = self.prepared()?;
         match p.root_bound() {
-            Some(bound) => p.search_line(&-bound.clone(), &bound),
+            Some(_) => p.search_line(&-S::infinity(), &S::infinity()),
             None => Ok(Roots::new()),
         }
     }
 
     /// Checked and scaled.
-    fn prepared(&self) -> Result<Self, RootsError> {
+    pub(super) fn prepared(&self) -> Result<Self, RootsError> {
         if !self.coefficients.iter().all(S::is_finite) {
             return Err(RootsError::NotFinite);
         }
@@ -146,7 +156,7 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     }
 
     /// Divided by the highest power of x that divides it, and the exponent.
-    fn without_zeros(&self) -> (Self, usize) {
+    pub(super) fn without_zeros(&self) -> (Self, usize) {
         let zeros = self.coefficients.iter().take_while(|c| c.is_zero()).count();
         let shifted = from_fn(|j| self.coefficients.get(j + zeros).cloned().unwrap_or_else(S::zero));
         (Self::new(shifted), zeros)
@@ -184,27 +194,31 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
 /// Appends the roots of p on a piece.
 #[inline]
 fn search<S: Scalar, const N: usize>(p: &Polynomial<S, N>, piece: Piece<S, N>, roots: &mut Roots<S, N>) {
-    for isolated in isolate(p, piece) {
-        push(roots, refine(p, isolated));
-    }
+    isolate(p, piece, Given::Rounded, |isolated| match isolated.found {
+        Found::One(start) => push(roots, crossing(p, isolated.lower, isolated.upper, isolated.after > 0, start)),
+        Found::Cluster(count) => cluster(p, &isolated, count, &mut |root| push(roots, root)),
+    });
 }
 
 /// Appends the roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.
 fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, roots: &mut Roots<S, N>) {
-    if hi <= S::int(NEAR) {
-        return search(p, Piece::seated(p, lo, hi), roots);
+    let border = border::<S>();
+    if hi <= border {
+        return search(p, Piece::seated(p, lo, hi, Given::Rounded), roots);
     }
     let one = S::one();
     let mut near = Roots::new();
-    if lo < one {
-        search(p, Piece::seated(p, lo.clone(), one.clone()), &mut near);
+    if lo < border {
+        search(p, Piece::seated(p, lo.clone(), border.clone(), Given::Rounded), &mut near);
     }
     let (reversed, _) = p.reversed().without_zeros();
-    let nearest = one.clone() / &lo.clone().max(one.clone());
-    let farthest = if hi.is_finite() { one.clone() / &hi } else { S::zero() };
+    // rounded outwards: what this adds is cut off again
+    let nudge = S::unit_roundoff().mul_pow2(2);
+    let nearest = (nudge.clone() + &one) / &lo.clone().max(border.clone());
+    let farthest = if hi.is_finite() { (one.clone() - &nudge) / &hi } else { S::zero() };
     let mut far = Roots::new();
     if farthest < nearest {
-        search(&reversed, Piece::seated(&reversed, farthest, nearest), &mut far);
+        search(&reversed, Piece::seated(&reversed, farthest, nearest, Given::Rounded), &mut far);
     }
     let reciprocal = |t: &S| (one.clone() / t).clamp(lo.clone(), hi.clone());
     let mut far = far.into_iter().rev().filter(|r| !r.value.is_zero()).map(|r| Root {
@@ -213,11 +227,11 @@ fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S
         upper: if r.lower.is_zero() { hi.clone() } else { reciprocal(&r.lower) },
         kind: r.kind,
     });
-    // a root at 1, found from both sides, is one root
+    // a root at the border, found from both sides, is one root
     let mut first_far = far.next();
     if let (Some(left), Some(right)) = (near.last_mut(), &first_far)
-        && left.upper >= one
-        && right.lower <= one
+        && left.upper >= border
+        && right.lower <= border
     {
         *left = joined(p, left, right);
         first_far = None;
@@ -255,7 +269,7 @@ fn joined<S: Scalar, const N: usize>(p: &Polynomial<S, N>, left: &Root<S>, right
 
 /// Appends; there are never more roots than coefficients, and if noise made it so, the last bracket grows.
 #[inline]
-fn push<S: Scalar, const N: usize>(roots: &mut Roots<S, N>, root: Root<S>) {
+pub(super) fn push<S: Scalar, const N: usize>(roots: &mut Roots<S, N>, root: Root<S>) {
     if let Err(full) = roots.try_push(root)
         && let Some(last) = roots.last_mut()
     {

@@ -13,7 +13,7 @@ fn main() {
     );
     println!("{}", survey::units());
     println!(
-        "{:28} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7}",
+        "{:28} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>7} {:>7}",
         "class",
         "roots",
         "at end",
@@ -25,14 +25,18 @@ fn main() {
         "planted",
         "error",
         "width",
-        "cluster"
+        "cluster",
+        "brackets",
+        "proved",
+        "refuted",
+        "outside"
     );
     let mut clean = true;
     for class in Class::ALL {
         let s = survey::roots(class, count, seed);
         clean &= s.is_clean();
         println!(
-            "{class:28} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>7.2} {:>7.1} {:>7.1}",
+            "{class:28} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>7.2} {:>7.1} {:>7.1} {:>8} {:>8} {:>7} {:>7}",
             s.roots,
             s.at_ends,
             s.missed,
@@ -43,7 +47,11 @@ fn main() {
             s.planted_missed,
             s.quality.error,
             s.quality.simple_width,
-            s.quality.cluster_width
+            s.quality.cluster_width,
+            s.certified,
+            s.proved,
+            s.refuted,
+            s.outside
         );
         for example in &s.examples {
             println!("    {example}");

@@ -63,7 +63,7 @@ pub struct Quality {
     pub error: f64,
     /// The largest width of the bracket of a simple root in attainable errors.
     pub simple_width: f64,
-    /// The largest width of another bracket in attainable errors.
+    /// The largest width of another bracket in attainable errors of a root of its multiplicity.
     pub cluster_width: f64,
 }
 
@@ -194,11 +194,23 @@ impl Judge {
 
     /// The attainable error ρ at x.
     pub fn attainable(&self, x: &Dyadic) -> f64 {
+        self.attainable_up_to(x, 1)
+    }
+
+    /// The attainable error of a k-fold root, or a cluster of k, at x: that of the j-fold ones, j ≥ k, is not better.
+    pub fn attainable_of(&self, x: &Dyadic, k: u8) -> f64 {
+        self.attainable_up_to(x, usize::from(k))
+    }
+
+    /// u|x| + min over j ≥ `first` of (η/|cⱼ|)^(1/j).
+    fn attainable_up_to(&self, x: &Dyadic, first: usize) -> f64 {
         let noise = self.exact.magnitude(x).log2() - 53.0;
         let (mut least, mut order) = (f64::INFINITY, 0.0);
-        for c in self.exact.taylor(x).iter().skip(1) {
+        for (j, c) in self.exact.taylor(x).iter().enumerate().skip(1) {
             order += 1.0;
-            least = least.min((noise - c.log2()) / order);
+            if j >= first {
+                least = least.min((noise - c.log2()) / order);
+            }
         }
         let own = if x.sign() == 0 { 0.0 } else { (x.log2() - 53.0).exp2() };
         least.exp2() + own + f64::from_bits(1)
@@ -311,7 +323,7 @@ impl Judge {
         let mut quality = Quality::default();
         for root in found {
             let Some((bracket, value)) = exactly(root) else { continue };
-            let width = (root.upper - root.lower) / self.attainable(&value);
+            let width = (root.upper - root.lower) / self.attainable_of(&value, root.kind.multiplicity());
             let error = self.error(root, &self.widened(&bracket));
             let one = match (root.kind, error) {
                 (RootKind::Simple, Some(error)) => Quality { error, simple_width: width, cluster_width: 0.0 },

@@ -8,6 +8,7 @@
 //! * [`exact`]: polynomials over the integers: values, remainders, greatest common divisors, square-free factors;
 //! * [`sturm`]: the number of roots in an interval, with multiplicity where asked;
 //! * [`judge`]: what is right and what is wrong about a list of roots, by these counts;
+//! * [`proof`]: whether certified answers are true, by the same counts;
 //! * [`nasty`]: polynomials that break solvers, from a seed;
 //! * [`solve`]: the kernel's root finder for any number of coefficients;
 //! * [`queries`]: cubics with a point each, in the three classes of the closest-point benches;
@@ -29,6 +30,7 @@ pub mod exact;
 pub mod feature_size;
 pub mod judge;
 pub mod nasty;
+pub mod proof;
 pub mod property;
 pub mod queries;
 pub mod random;

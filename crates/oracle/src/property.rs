@@ -6,7 +6,8 @@
 use crate::closest::{Closest, brute};
 use crate::decode::{self, Bytes};
 use crate::judge::{Fault, Interval, Judge};
-use crate::solve::{Ask, solve};
+use crate::proof::refuted;
+use crate::solve::{Ask, prove, solve};
 use feature_sampling::bezier::Cubic;
 use feature_sampling::bezier::nearest::{distance_quintic, nearest, nearest_between};
 use feature_sampling::geometry::{Aabb, Point};
@@ -14,7 +15,7 @@ use feature_sampling::polynomial::{Root, RootKind, RootsError};
 use lineart::svg;
 
 /// Root finding: typed errors for what has no list of roots; otherwise no fault by exact count in [0, 1], in an interval and
-/// on the whole line, and answers that follow the polynomial when it is scaled, mirrored, reversed and shifted.
+/// on the whole line, certified statements that are true, and answers that follow the polynomial when it is scaled, mirrored, reversed and shifted.
 ///
 /// # Panics
 /// If anything of this does not hold.
@@ -80,6 +81,10 @@ fn faultless(coefficients: &[f64], ask: Ask) -> Vec<Root<f64>> {
         let words: Vec<String> = faults.iter().map(Fault::to_string).collect();
         let truth = judge.roots(&within);
         panic!("{ask:?} of {coefficients:?}: {}; found {found:?}, truth {truth:?}", words.join("; "));
+    }
+    let certified = prove(coefficients, ask).unwrap_or_else(|e| panic!("{ask:?} of {coefficients:?}: {e}"));
+    if let Some(cause) = refuted(&judge, &certified, &within) {
+        panic!("{ask:?} of {coefficients:?}: {cause}; certified {certified:?}, truth {:?}", judge.roots(&within));
     }
     found
 }

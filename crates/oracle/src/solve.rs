@@ -1,6 +1,6 @@
 //! The kernel's root finder, whose number of coefficients is fixed when it is compiled, for lists of any length up to 16.
 
-use feature_sampling::polynomial::{Polynomial, Root, RootsError};
+use feature_sampling::polynomial::{Certified, Polynomial, Root, RootsError};
 
 /// Which of the kernel's interfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,24 @@ pub enum Ask {
 /// The most coefficients there may be.
 pub const MOST: usize = 16;
 
+/// Calls a function with the number of coefficients as its parameter.
+macro_rules! by_size {
+    ($coefficients:expr, $function:ident($($argument:expr),*)) => {
+        match $coefficients.len() {
+            0..=2 => $function::<2>($($argument),*),
+            3 => $function::<3>($($argument),*),
+            4 => $function::<4>($($argument),*),
+            5 => $function::<5>($($argument),*),
+            6 => $function::<6>($($argument),*),
+            7 => $function::<7>($($argument),*),
+            8 => $function::<8>($($argument),*),
+            9..=11 => $function::<11>($($argument),*),
+            12..=MOST => $function::<MOST>($($argument),*),
+            more => panic!("{more} coefficients; {MOST} at most"),
+        }
+    };
+}
+
 /// The kernel's answer.
 ///
 /// Lists are filled up with zeros to the next length that is compiled in: 2 to 8, 11 or 16 coefficients.
@@ -26,22 +44,36 @@ pub const MOST: usize = 16;
 /// # Panics
 /// If there are more than [`MOST`] coefficients.
 pub fn solve(coefficients: &[f64], ask: Ask) -> Result<Vec<Root<f64>>, RootsError> {
-    match coefficients.len() {
-        0..=2 => solve_as::<2>(coefficients, ask),
-        3 => solve_as::<3>(coefficients, ask),
-        4 => solve_as::<4>(coefficients, ask),
-        5 => solve_as::<5>(coefficients, ask),
-        6 => solve_as::<6>(coefficients, ask),
-        7 => solve_as::<7>(coefficients, ask),
-        8 => solve_as::<8>(coefficients, ask),
-        9..=11 => solve_as::<11>(coefficients, ask),
-        12..=MOST => solve_as::<MOST>(coefficients, ask),
-        more => panic!("{more} coefficients; {MOST} at most"),
-    }
+    by_size!(coefficients, solve_as(coefficients, ask))
+}
+
+/// The kernel's certified answer.
+///
+/// # Errors
+/// The kernel's own.
+///
+/// # Panics
+/// If there are more than [`MOST`] coefficients.
+pub fn prove(coefficients: &[f64], ask: Ask) -> Result<Vec<Certified<f64>>, RootsError> {
+    by_size!(coefficients, prove_as(coefficients, ask))
+}
+
+fn prove_as<const N: usize>(coefficients: &[f64], ask: Ask) -> Result<Vec<Certified<f64>>, RootsError> {
+    let p = polynomial::<N>(coefficients);
+    let found = match ask {
+        Ask::Unit => p.certified_in_unit(),
+        Ask::Between(lo, hi) => p.certified_between(&lo, &hi),
+        Ask::Real => p.certified_real_roots(),
+    };
+    found.map(|roots| roots.into_iter().collect())
+}
+
+fn polynomial<const N: usize>(coefficients: &[f64]) -> Polynomial<f64, N> {
+    Polynomial::new(std::array::from_fn(|j| coefficients.get(j).copied().unwrap_or(0.0)))
 }
 
 fn solve_as<const N: usize>(coefficients: &[f64], ask: Ask) -> Result<Vec<Root<f64>>, RootsError> {
-    let p = Polynomial::<f64, N>::new(std::array::from_fn(|j| coefficients.get(j).copied().unwrap_or(0.0)));
+    let p = polynomial::<N>(coefficients);
     let found = match ask {
         Ask::Unit => p.roots_in_unit(),
         Ask::Between(lo, hi) => p.roots_between(&lo, &hi),

@@ -3,11 +3,12 @@
 use crate::closest::{Closest, brute};
 use crate::judge::{Fault, Interval, Judge, Quality, SLACK};
 use crate::nasty;
+use crate::proof::refuted;
 use crate::queries;
 use crate::random::Random;
-use crate::solve::{Ask, solve};
+use crate::solve::{Ask, prove, solve};
 use feature_sampling::bezier::nearest::{distance_quintic, nearest};
-use feature_sampling::polynomial::{Root, RootKind};
+use feature_sampling::polynomial::{Holds, Root, RootKind};
 
 /// The outcome for one class of nasty polynomials.
 #[derive(Clone, Debug, Default)]
@@ -30,6 +31,14 @@ pub struct RootSurvey {
     pub inaccurate: usize,
     /// Planted roots (rounding may have lifted them off the axis) in no bracket.
     pub planted_missed: usize,
+    /// Certified answers with a false statement.
+    pub refuted: usize,
+    /// Certified brackets.
+    pub certified: usize,
+    /// Of these, brackets with exactly one root.
+    pub proved: usize,
+    /// Simple roots of the plain mode that are outside of their brackets, however close.
+    pub outside: usize,
     /// Errors and widths.
     pub quality: Quality,
     /// The first faults, in words, with the polynomial.
@@ -39,7 +48,7 @@ pub struct RootSurvey {
 impl RootSurvey {
     /// Nothing is wrong.
     pub const fn is_clean(&self) -> bool {
-        self.missed + self.ghosts + self.miscounts + self.inaccurate + self.planted_missed == 0
+        self.missed + self.ghosts + self.miscounts + self.inaccurate + self.planted_missed + self.refuted == 0
     }
 }
 
@@ -91,6 +100,17 @@ pub fn roots(class: nasty::Class, count: usize, seed: u64) -> RootSurvey {
                 }
             }
             survey.quality = survey.quality.worst(judge.quality(&found));
+            for root in found.iter().filter(|root| root.kind == RootKind::Simple) {
+                let bracket = Interval::between(root.lower, root.upper);
+                survey.outside += usize::from(bracket.is_some_and(|bracket| judge.count_distinct(&bracket) == 0));
+            }
+            let certified = prove(&case.coefficients, ask).unwrap_or_default();
+            survey.certified += certified.len();
+            survey.proved += certified.iter().filter(|root| root.holds == Holds::One).count();
+            if let Some(cause) = refuted(&judge, &certified, &within) {
+                survey.refuted += 1;
+                survey.note(format!("{ask:?} of {:?}: {cause}; certified {certified:?}", case.coefficients));
+            }
         }
     }
     survey

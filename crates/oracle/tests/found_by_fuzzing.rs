@@ -61,6 +61,33 @@ fn a_triple_root_at_1_found_from_both_sides_keeps_its_parity() {
     check_roots(&p, 0.5, 1.5);
 }
 
+/// Noise in proportion to the whole line was believed on a short stretch: a cluster of six beside two simple roots.
+#[test]
+fn a_simple_root_beside_a_quadruple_one_makes_no_cluster_of_six() {
+    let p = [
+        -9.238210196815106e-10,
+        2.942330183938517e-7,
+        -3.7424339097895935e-5,
+        0.0023723291233169936,
+        -0.07457366585729666,
+        0.9061298370361528,
+        1.0,
+    ];
+    let found = solve(&p, Ask::Real).expect("finite");
+    assert!(found.iter().all(|root| root.kind.multiplicity() <= 4), "{found:?}");
+    check_roots(&p, 0.0, 0.5);
+}
+
+/// Steps about the last place sent the search away to where one long step ended it, with that step's rounding error.
+#[test]
+fn a_huge_root_is_right_to_the_last_place() {
+    check_roots(
+        &[1.0, 128.0, -56.0, 0.0, -16384.0, -6.58276836460481e-37, -238.0, 0.0, 123145302310912.0, 6.0],
+        0.0,
+        1.0,
+    );
+}
+
 /// Signs of coefficients that were nothing but noise were believed: 4e-10 too far on a stroke of length 30.
 #[test]
 fn a_query_beside_the_end_of_a_retracted_handle() {

@@ -256,7 +256,10 @@ fn exact_products_with_multiplicities() {
             ambiguities += usize::from(ambiguous);
             if ambiguous {
                 for t in &truth {
-                    assert!(found.iter().any(|r| (r.lower - 1e-15..=r.upper + 1e-15).contains(t)), "{t} missed");
+                    assert!(
+                        found.iter().any(|r| (r.lower - 1e-15..=r.upper + 1e-15).contains(t)),
+                        "{t} missed, found {found:?}"
+                    );
                 }
                 continue;
             }

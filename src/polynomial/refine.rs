@@ -48,9 +48,8 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         let (_, slope, bend) = p.jet(x);
         (twofold::value(p, x), slope, bend)
     };
-    let enough = S::unit_roundoff().mul_pow2(-4);
-    let Zero { x, slope, .. } =
-        in_bracket(precise, lower.clone(), upper.clone(), rising, start, |x| x.clone().abs() * &enough);
+    // The slope is not as good as the value where roots are close: nothing less than a last step below the resolution will do.
+    let Zero { x, slope, .. } = in_bracket(precise, lower.clone(), upper.clone(), rising, start, |_| S::zero());
     let radius = spread(p, &x, &slope);
     Root {
         lower: lower.max(x.clone() - &radius),

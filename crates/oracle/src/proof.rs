@@ -20,7 +20,7 @@ pub fn refuted(judge: &Judge, found: &[Certified<f64>], within: &Interval) -> Op
         let is_true = match root.holds {
             Holds::One => count == 1,
             Holds::Odd => count % 2 == 1,
-            Holds::Even => count % 2 == 0,
+            Holds::Even => count.is_multiple_of(2),
             Holds::Unknown => true,
         };
         if !is_true {

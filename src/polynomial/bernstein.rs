@@ -21,7 +21,7 @@
 //! Where nothing is to be proved about the given coefficients, N·u·L·Σ|aⱼ|hiʲ is added: about what the roundings
 //! do that lead to a coefficient, if the polynomial was multiplied out from roots.
 
-use super::eval::descend;
+use super::eval::{ascend, descend};
 use super::{Polynomial, twofold};
 use crate::scalar::Scalar;
 use core::array::from_fn;
@@ -113,10 +113,7 @@ pub(crate) fn scale<S: Scalar, const N: usize>() -> S {
 pub(crate) fn halve<S: Scalar, const N: usize>(b: &mut [S; N], left: &mut [S; N]) {
     for (k, l) in left.iter_mut().enumerate() {
         *l = b[0].clone().mul_pow2(-places(k));
-        for i in 0..N - 1 - k {
-            let sum = b[i].clone() + &b[i + 1];
-            b[i] = sum;
-        }
+        ascend(b, k, |lower, upper| *lower = lower.clone() + &*upper);
     }
     for (i, c) in b.iter_mut().enumerate() {
         *c = c.clone().mul_pow2(-places(N - 1 - i));

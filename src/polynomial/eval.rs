@@ -16,6 +16,17 @@ pub(super) fn descend<S, const N: usize>(c: &mut [S; N], from: usize, mut combin
     }
 }
 
+/// The same for all but the last `without`, the lower one first, from the bottom up.
+#[inline]
+pub(super) fn ascend<S, const N: usize>(c: &mut [S; N], without: usize, mut combine: impl FnMut(&mut S, &mut S)) {
+    let mut coefficients = c.iter_mut().take(N - without.min(N));
+    let Some(mut lower) = coefficients.next() else { return };
+    for upper in coefficients {
+        combine(lower, upper);
+        lower = upper;
+    }
+}
+
 impl<S: Scalar, const N: usize> Polynomial<S, N> {
     /// The polynomial with these coefficients, ascending powers.
     #[inline]

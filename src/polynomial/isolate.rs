@@ -160,7 +160,7 @@ pub(super) fn isolate<S: Scalar, const N: usize>(
     let mut record = Record { out, open: None, sign: 0, beyond: ArrayVec::new() };
     // the last one is the leftmost
     let mut pieces: ArrayVec<Piece<S, N>, PENDING> = ArrayVec::new();
-    pieces.push(first);
+    pieces.keep(first);
     for _ in 0..2 * N * (S::BITS as usize + 16) {
         let Some(piece) = pieces.last() else { break };
         if !record.beyond.is_empty() {

@@ -137,22 +137,20 @@ fn group<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<S>
     let centre = S::midpoint(lower, upper);
     let degree = p.degree().unwrap_or(0).max(1);
     let reach = (upper.clone() - lower) * &S::ratio(3, 4);
-    let (mut x, mut k) = (centre, count);
-    if count == 0 {
+    let parity_known = *before != 0 && *after != 0;
+    // At an end of the interval only some of a cluster may be seen from inside.
+    let is_counted = count > 0 && parity_known;
+    let (mut x, mut k) = (centre, if is_counted { count } else { 0 });
+    if !is_counted {
         // too small a guess still leads to the middle of a multiple root, from where its order shows better
         for _ in 0..ROUNDS {
-            let seen = dominant(p, &x, &reach);
+            let seen = dominant(p, &x, &reach).max(count);
             if seen == k {
                 break;
             }
             k = seen;
             x = mean(p, lower, upper, x, k);
         }
-    }
-    let parity_known = *before != 0 && *after != 0;
-    if !parity_known {
-        // at an end of the interval only some of a cluster may be seen from inside
-        k = k.max(dominant(p, &x, &reach));
     }
     if parity_known && (before != after) != (k % 2 == 1) {
         k = if k < degree { k + 1 } else { k.saturating_sub(1) };
@@ -201,7 +199,7 @@ fn at_end<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S,
 fn dominant<S: Scalar, const N: usize>(p: &Polynomial<S, N>, at: &S, distance: &S) -> usize {
     let mut best = (1, S::zero());
     let mut power = S::one();
-    for (k, c) in p.taylor(at).coefficients.into_iter().enumerate().skip(1) {
+    for (k, c) in twofold::taylor(p, at).coefficients.into_iter().enumerate().skip(1) {
         power = power * distance;
         let term = c.abs() * &power;
         if term > best.1 {
@@ -212,22 +210,30 @@ fn dominant<S: Scalar, const N: usize>(p: &Polynomial<S, N>, at: &S, distance: &
 }
 
 /// The root of the (k−1)-st derivative in [lower, upper], by Newton's method held there.
+///
+/// Of more than k roots it is a multiple one: derivatives in twice the precision, and an end where steps do not shrink any
+/// more, keep the method from being thrown out by its own noise there.
 fn mean<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S, start: S, k: usize) -> S {
     let mut x = start;
     let order = S::int(i32::try_from(k).unwrap_or(1));
     let resolution = S::unit_roundoff().twice();
+    let mut previous = S::infinity();
     for _ in 0..S::BITS {
-        let c = p.taylor(&x).coefficients;
+        let c = twofold::taylor(p, &x).coefficients;
         let (Some(value), Some(slope)) = (c.get(k - 1), c.get(k)) else { break };
         if slope.is_zero() {
             break;
         }
         let next = (x.clone() - &(value.clone() / &(slope.clone() * &order))).clamp(lower.clone(), upper.clone());
         let moved = (next.clone() - &x).abs();
+        if moved >= previous {
+            break;
+        }
         x = next;
         if moved <= x.clone().abs() * &resolution {
             break;
         }
+        previous = moved;
     }
     x
 }

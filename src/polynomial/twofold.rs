@@ -19,6 +19,7 @@
 //! anything that underflowed is below 2^−4·BITS of the magnitude, far below the bound above.
 
 use super::Polynomial;
+use super::eval::descend;
 use crate::scalar::Scalar;
 
 /// The sum rounded to nearest and its exact error.
@@ -79,21 +80,17 @@ pub(super) fn value<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S) -> S
 #[inline]
 pub(super) fn taylor<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S) -> Polynomial<S, N> {
     let factor = Split::new(x.clone());
-    let mut sums = p.coefficients.clone();
-    let mut corrections: [S; N] = core::array::from_fn(|_| S::zero());
+    let mut pairs: [(S, S); N] = core::array::from_fn(|j| (p.coefficients[j].clone(), S::zero()));
     for done in 0..N {
-        for j in (done + 1..N).rev() {
-            let (product, below) = Split::new(sums[j].clone()).times(&factor);
-            let (next, rest) = two_sum(product, &sums[j - 1]);
-            let carried = corrections[j].clone() * x + &(below + &rest);
-            corrections[j - 1] = carried + &corrections[j - 1];
-            sums[j - 1] = next;
-        }
+        descend(&mut pairs, done, |(upper, beside), (lower, correction)| {
+            let (product, below) = Split::new(upper.clone()).times(&factor);
+            let (next, rest) = two_sum(product, lower);
+            let carried = beside.clone() * x + &(below + &rest);
+            *correction = carried + &*correction;
+            *lower = next;
+        });
     }
-    for (sum, correction) in sums.iter_mut().zip(&corrections) {
-        *sum = sum.clone() + correction;
-    }
-    Polynomial::new(sums)
+    Polynomial::new(pairs.map(|(sum, correction)| sum + &correction))
 }
 
 /// 8N²u: times u and the magnitude, the error of [`value`] beside its last rounding.

@@ -317,6 +317,12 @@ pub const TABLE: &[Entry] = &[
     measured!("polynomial::bound::Polynomial::cauchy_bound", a::cauchy, "the result, never below it", [8.0, 8.0], MANY),
     measured!("polynomial::bound::Polynomial::kojima_bound", a::kojima, "the result, never below it", [8.0, 8.0], MANY),
     through("polynomial::bound::Polynomial::root_bound", "polynomial::bound::Polynomial::kojima_bound"),
+    encloses(
+        "polynomial::certified::Polynomial::certified_between",
+        "or says that it is not known; judged by Sturm's theorem",
+    ),
+    encloses("polynomial::certified::Polynomial::certified_in_unit", "as certified_between"),
+    encloses("polynomial::certified::Polynomial::certified_real_roots", "as certified_between"),
     exact("polynomial::eval::Polynomial::degree", "comparisons"),
     measured!("polynomial::eval::Polynomial::eval", a::polynomial_eval, "Σ|aⱼxʲ|", [2.0, 2.0], MANY),
     measured!(

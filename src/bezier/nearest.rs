@@ -26,10 +26,11 @@
 
 use super::hull::hull_keeps_away;
 use super::{Cubic, PowerBasis};
+use crate::buffer::Keep;
 use crate::geometry::{Point, Vector};
 use crate::polynomial::Polynomial;
 use crate::polynomial::bernstein::{self, Signs};
-use crate::polynomial::newton::{Start, in_bracket};
+use crate::polynomial::newton::{careful_halley, in_bracket, quick_halley};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
@@ -119,6 +120,10 @@ struct View<'b, S> {
     /// B(0) − q.
     offset: Vector<S>,
     quintic: Polynomial<S, 6>,
+    /// Bound of the error of the quintic's Bernstein coefficients, times 10, on [0, 1] or a part of it.
+    noise: S,
+    /// Products of two numbers of the size of the quintic's coefficients stay in the scalar's range.
+    is_tame: bool,
 }
 
 /// A stretch that may hold a minimum below the best value so far.
@@ -139,7 +144,10 @@ struct Stretch<S> {
 impl<'b, S: Scalar> View<'b, S> {
     #[inline]
     fn new(basis: &'b PowerBasis<S>, q: &Point<S>) -> Self {
-        Self { basis, offset: basis.origin.minus(q), quintic: distance_quintic(basis, q) }
+        let quintic = distance_quintic(basis, q);
+        let weight = quintic.weight();
+        let is_tame = Polynomial::<S, 6>::is_comfortable(&weight);
+        Self { basis, offset: basis.origin.minus(q), quintic, noise: noise(&weight), is_tame }
     }
 
     /// F(t).
@@ -173,43 +181,50 @@ impl<'b, S: Scalar> View<'b, S> {
         let mut best = if end < start { (hi.clone(), end) } else { (lo.clone(), start.clone()) };
         // the last one is looked at next
         let mut pending: ArrayVec<Stretch<S>, PENDING> = ArrayVec::new();
-        let noise = noise(&self.quintic);
-        pending.push(Stretch { g, noise, lo, hi, start, floor: S::zero() });
+        pending.keep(Stretch { g, noise: self.noise.clone(), lo, hi, start, floor: S::zero() });
         if let Some(stretch) = pending.last_mut()
             && !self.look(stretch, &mut best)
         {
             return self.answer(best.0, best.1);
         }
         for _ in 0..16 * S::BITS {
-            let Some(stretch) = pending.last() else { break };
-            let mid = S::midpoint(&stretch.lo, &stretch.hi);
-            let is_worth_it = stretch.floor < worthwhile(&best.1) && stretch.lo < mid && mid < stretch.hi;
-            if is_worth_it && pending.is_full() {
-                pending.retain(|waiting| waiting.floor < worthwhile(&best.1));
+            let Some(right) = pending.last_mut() else { break };
+            let mid = S::midpoint(&right.lo, &right.hi);
+            if !(right.floor < worthwhile(&best.1) && right.lo < mid && mid < right.hi) {
+                pending.truncate(pending.len().saturating_sub(1));
+                continue;
             }
-            let copy = pending.last().cloned();
-            if let Some(copy) = copy
-                && is_worth_it
-                && pending.try_push(copy).is_ok()
-                && let [.., right, left] = pending.as_mut_slice()
-            {
-                let value = self.distance_sq(&mid);
-                if value < best.1 {
-                    best = (mid.clone(), value.clone());
+            let value = self.distance_sq(&mid);
+            if value < best.1 {
+                best = (mid.clone(), value.clone());
+            }
+            let mut left = Stretch {
+                g: right.g.clone(),
+                noise: right.noise.clone(),
+                lo: right.lo.clone(),
+                hi: mid.clone(),
+                start: right.start.clone(),
+                floor: S::zero(),
+            };
+            bernstein::halve(&mut right.g, &mut left.g);
+            (right.lo, right.start) = (mid, value);
+            let is_left_open = self.look(&mut left, &mut best);
+            let is_right_open = self.look(right, &mut best);
+            match (is_left_open, is_right_open) {
+                (false, false) => pending.truncate(pending.len().saturating_sub(1)),
+                (false, true) => {}
+                (true, false) => *right = left,
+                (true, true) => {
+                    // the more promising one on top
+                    if left.floor > right.floor {
+                        core::mem::swap(&mut left, right);
+                    }
+                    if pending.is_full() {
+                        pending.retain(|waiting| waiting.floor < worthwhile(&best.1));
+                    }
+                    // What finds no room is left at the value of its ends.
+                    let _ = pending.try_push(left);
                 }
-                bernstein::halve(&mut right.g, &mut left.g);
-                left.hi = mid.clone();
-                right.lo = mid;
-                right.start = value;
-                let is_left_open = self.look(left, &mut best);
-                let is_right_open = self.look(right, &mut best);
-                // the only open half below, or the more promising one on top
-                if is_left_open && (!is_right_open || left.floor > right.floor) {
-                    core::mem::swap(left, right);
-                }
-                pending.truncate(pending.len() - usize::from(!is_left_open) - usize::from(!is_right_open));
-            } else {
-                pending.truncate(pending.len() - 1);
             }
         }
         self.answer(best.0, best.1)
@@ -219,19 +234,27 @@ impl<'b, S: Scalar> View<'b, S> {
     /// bound of F on it and answers that it must be halved. `best` is (t, F(t)).
     #[inline]
     fn look(&self, stretch: &mut Stretch<S>, best: &mut (S, S)) -> bool {
-        let mut signs = Signs::of(&stretch.g, &stretch.noise);
-        let mut is_certain = true;
-        if signs.decided() != Signs::full::<6>() {
-            (signs, is_certain) = self.look_closer(stretch, best);
+        // the common case, all signs known, in few steps
+        let (mut least, mut negative) = (S::infinity(), 0_u32);
+        for (i, g) in stretch.g.iter().enumerate() {
+            least = g.clone().abs().min(least);
+            negative |= u32::from(*g < S::zero()) << i;
         }
-        if is_certain && (signs.positive == 0 || signs.negative == 0) {
+        let mut is_known = least > stretch.noise;
+        if !is_known {
+            let (signs, is_certain) = self.look_closer(stretch, best);
+            negative = signs.negative;
+            is_known = signs.decided() == Signs::full::<6>();
+            if is_certain && (signs.positive == 0 || signs.negative == 0) {
+                return false;
+            }
+        }
+        let positive = Signs::full::<6>() & !negative;
+        // F only rises, only falls, or rises to a maximum and falls: the ends have the least value
+        if is_known && positive & (positive + 1) == 0 {
             return false;
         }
-        let changes = signs.changes();
-        let one_extremum = signs.decided() == Signs::full::<6>() && changes.is_power_of_two();
-        if one_extremum && signs.at(0) > 0 {
-            return false;
-        }
+        let one_minimum = is_known && negative & (negative + 1) == 0;
         let width = stretch.hi.clone() - &stretch.lo;
         let (mut sum, mut least) = (S::zero(), S::zero());
         for g in &stretch.g {
@@ -245,18 +268,25 @@ impl<'b, S: Scalar> View<'b, S> {
         if floor >= worthwhile(&best.1) {
             return false;
         }
-        if !one_extremum {
+        if !one_minimum {
             stretch.floor = floor;
             return true;
         }
-        let start = bernstein::polygon_zero(&stretch.g, changes.trailing_zeros(), &stretch.lo, &stretch.hi);
-        let start = Start { x: start, step: None };
+        let start = bernstein::polygon_zero(&stretch.g, negative.trailing_ones() - 1, &stretch.lo, &stretch.hi);
         let resolution = S::unit_roundoff().twice() * &stretch.hi;
-        let zero =
-            in_bracket(|t| self.slope(t), stretch.lo.clone(), stretch.hi.clone(), true, start, |_| resolution.clone());
-        let value = self.distance_sq(&zero.x);
+        let step = |value: &S, slope: &S, bend: &S| {
+            if self.is_tame { quick_halley(value, slope, bend) } else { careful_halley(value, slope, bend) }
+        };
+        let zero = in_bracket(
+            |t| self.slope(t),
+            step,
+            (stretch.lo.clone(), stretch.hi.clone()),
+            start,
+            |_| resolution.clone(),
+        );
+        let value = self.distance_sq(&zero);
         if value < best.1 {
-            *best = (zero.x, value);
+            *best = (zero, value);
         }
         false
     }
@@ -286,7 +316,7 @@ impl<S: Scalar> View<'_, S> {
             let local = PowerBasis { origin: Point::new(start.x, start.y), a };
             let quintic = distance_quintic(&local, &Point::new(S::zero(), S::zero()));
             stretch.g = bernstein::on_unit(&quintic.coefficients).map(|c| c / &width);
-            stretch.noise = noise(&quintic) / &width;
+            stretch.noise = noise(&quintic.weight()) / &width;
         }
         if is_harmless(&stretch.noise) {
             return (Signs::of(&stretch.g, &S::zero()), true);
@@ -303,10 +333,10 @@ impl<S: Scalar> View<'_, S> {
     }
 }
 
-/// Bound of the error of the Bernstein coefficients, times 10, of a quintic on [0, 1] or a part of it.
+/// Bound of the error of the Bernstein coefficients, times 10, of a quintic on [0, 1] or a part of it; Σ|cⱼ| is its weight.
 #[inline]
-fn noise<S: Scalar>(quintic: &Polynomial<S, 6>) -> S {
-    quintic.weight() * &S::unit_roundoff().mul_pow2(7)
+fn noise<S: Scalar>(weight: &S) -> S {
+    S::unit_roundoff().mul_pow2(7) * weight
 }
 
 /// Below this a value is an improvement of more than a few roundings.

@@ -39,6 +39,10 @@ mod twofold;
 pub use certified::{Certified, CertifiedRoots, Holds};
 pub use roots::{Root, RootKind, Roots, RootsError};
 
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/roots.md")]
+mod page {}
+
 /// A polynomial a₀ + a₁ x + … + a₍ₙ₋₁₎ xⁿ⁻¹ with N coefficients, ascending powers; leading coefficients may be zero.
 ///
 /// N is at least 1; root finding accepts N ≤ 16 (degree 15), which is checked when the program is compiled.

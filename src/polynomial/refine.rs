@@ -22,16 +22,18 @@
 
 use super::bernstein::{Given, Piece};
 use super::isolate::{Found, Isolated, isolate};
-use super::newton::{Start, Zero, in_bracket};
+use super::newton::{halley, narrowing};
 use super::roots::push;
-use super::{Polynomial, Root, RootKind, twofold};
+use super::{Polynomial, Root, RootKind, Roots, twofold};
 use crate::scalar::Scalar;
-use arrayvec::ArrayVec;
 
 /// Rounds of looking for the order and the middle of a cluster.
 const ROUNDS: usize = 4;
 
 /// The one root in [lower, upper], where p changes its sign; `rising`: from − to +.
+///
+/// A step taken from a value in twice the precision is as wrong as the slope is, in proportion: an error of 2N²u·Σ|aⱼ||x|ʲ/|x|
+/// leaves that share of the step. Where this is below the resolution no further step is needed to see it.
 #[inline]
 pub(super) fn crossing<S: Scalar, const N: usize>(
     p: &Polynomial<S, N>,
@@ -41,15 +43,48 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
     start: S,
 ) -> Root<S> {
     let half_way = S::one().mul_pow2(-(S::BITS / 2).cast_signed());
-    let start = Start { x: start, step: None };
-    let rough = in_bracket(|x| p.jet(x), lower.clone(), upper.clone(), rising, start, |x| x.clone().abs() * &half_way);
-    let start = Start { x: rough.x, step: Some(rough.step) };
-    let precise = |x: &S| {
-        let (_, slope, bend) = p.jet(x);
-        (twofold::value(p, x), slope, bend)
-    };
-    // The slope is not as good as the value where roots are close: nothing less than a last step below the resolution will do.
-    let Zero { x, slope, .. } = in_bracket(precise, lower.clone(), upper.clone(), rising, start, |_| S::zero());
+    let resolution = S::unit_roundoff().half();
+    let mut x = if lower < start && start < upper { start } else { S::midpoint(&lower, &upper) };
+    let mut previous = upper.clone() - &lower;
+    let (mut is_converging, mut is_precise) = (false, false);
+    let mut found = None;
+    for _ in 0..S::BITS {
+        let (plain, slope, bend) = p.jet(&x);
+        let value = if is_precise { twofold::value(p, &x) } else { plain };
+        let step = halley(&value, &slope, &bend);
+        let next = x.clone() - &step;
+        let step = step.abs();
+        let size = next.clone().abs();
+        let is_finest = step <= size.clone() * &resolution.clone().mul_pow2(2);
+        if !(lower <= next && next <= upper && (is_finest || step.clone().twice() <= previous)) {
+            break;
+        }
+        let curving = (step.clone() / &previous).square() * &step;
+        x = next;
+        if is_precise {
+            let unsure = wobble(p, &x) / &slope.clone().abs() * &step;
+            if is_finest || curving + &unsure <= size * &resolution {
+                found = Some((x.clone(), slope));
+                break;
+            }
+            previous = step;
+        } else {
+            let least = size * &half_way;
+            is_precise = is_finest || (is_converging && curving <= least);
+            previous = if is_precise { step.max(least) } else { step };
+        }
+        is_converging = true;
+    }
+    let (x, slope) = found.unwrap_or_else(|| {
+        let precise = |x: &S| {
+            let (_, slope, bend) = p.jet(x);
+            (twofold::value(p, x), slope, bend)
+        };
+        // The slope is not as good as the value where roots are close: nothing less than a last step below the resolution
+        // will do.
+        let zero = narrowing(precise, lower.clone(), upper.clone(), rising, x, |_| S::zero());
+        (zero.x, zero.slope)
+    });
     let radius = spread(p, &x, &slope);
     Root {
         lower: lower.max(x.clone() - &radius),
@@ -57,6 +92,13 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         value: x,
         kind: RootKind::Simple,
     }
+}
+
+/// What p'(x) may be off by.
+#[inline]
+fn wobble<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S) -> S {
+    let n = i32::try_from(2 * N * N).unwrap_or(i32::MAX);
+    S::int(n) * &S::unit_roundoff() * &p.magnitude(x) / &x.clone().abs()
 }
 
 /// What a simple root may be off by: one unit in the last place of x (1.4u|x| comes to that, rounded), and what values in
@@ -71,18 +113,34 @@ pub(super) fn spread<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S, slo
     (rest + &(x.clone().abs() * &S::ratio(7, 5))) * &S::unit_roundoff()
 }
 
+/// Appends the roots of p on a piece. Where coefficients are known better than [`Given::Rounded`] this is the closer look at a
+/// cluster, which takes no other.
+#[inline]
+pub(super) fn search<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    piece: Piece<S, N>,
+    given: Given,
+    roots: &mut Roots<S, N>,
+) {
+    isolate(p, piece, given, |isolated| match isolated.found {
+        Found::One(start) => push(roots, crossing(p, isolated.lower, isolated.upper, isolated.after > 0, start)),
+        Found::Cluster(count) if given == Given::Rounded => cluster(p, &isolated, count, roots),
+        Found::Cluster(count) => push(roots, group(p, &isolated, count)),
+    });
+}
+
 /// Roots that isolation could not tell apart: one cluster, or after a closer look several findings.
 #[cold]
-pub(super) fn cluster<S: Scalar, const N: usize>(
+fn cluster<S: Scalar, const N: usize>(
     p: &Polynomial<S, N>,
     isolated: &Isolated<S>,
     count: usize,
-    out: &mut impl FnMut(Root<S>),
+    roots: &mut Roots<S, N>,
 ) {
     let Isolated { lower, upper, .. } = isolated;
     let together = group(p, isolated, count);
     if lower >= upper || together.kind == RootKind::Simple {
-        return out(together);
+        return push(roots, together);
     }
     let apart = closer(p, lower, upper, Given::Exactly);
     let radius = attainable(p, &together.value, upper.clone() - lower);
@@ -90,24 +148,18 @@ pub(super) fn cluster<S: Scalar, const N: usize>(
     let multiplicity = |roots: &[Root<S>]| -> usize { roots.iter().map(|r| usize::from(r.kind.multiplicity())).sum() };
     if apart.iter().all(|root| from <= root.lower && root.upper <= to) {
         let (lower, upper) = (lower.clone().max(from), upper.clone().min(to));
-        out(Root { lower, upper, ..together });
+        push(roots, Root { lower, upper, ..together });
     } else if multiplicity(&apart) >= usize::from(together.kind.multiplicity()) {
-        apart.into_iter().for_each(out);
+        apart.into_iter().for_each(|root| push(roots, root));
     } else {
-        closer(p, lower, upper, Given::Once).into_iter().for_each(out);
+        closer(p, lower, upper, Given::Once).into_iter().for_each(|root| push(roots, root));
     }
 }
 
 /// What is in a bracket for coefficients known better.
-fn closer<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S, given: Given) -> ArrayVec<Root<S>, N> {
-    let mut found = ArrayVec::new();
-    isolate(p, Piece::seated(p, lower.clone(), upper.clone(), given), given, |isolated| {
-        let root = match isolated.found {
-            Found::One(start) => crossing(p, isolated.lower, isolated.upper, isolated.after > 0, start),
-            Found::Cluster(count) => group(p, &isolated, count),
-        };
-        push(&mut found, root);
-    });
+fn closer<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S, given: Given) -> Roots<S, N> {
+    let mut found = Roots::new();
+    search(p, Piece::seated(p, lower.clone(), upper.clone(), given), given, &mut found);
     found
 }
 

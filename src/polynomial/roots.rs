@@ -6,8 +6,7 @@
 //! and where leading coefficients that vanish or nearly vanish are roots at or near t = 0, that is, x = ∞.
 
 use super::bernstein::{Given, Piece};
-use super::isolate::{Found, isolate};
-use super::refine::{cluster, crossing};
+use super::refine::search;
 use super::{Polynomial, ends};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -102,7 +101,7 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
             let mut roots = Roots::new();
             let piece = Piece::unit(self, &weight);
             let at_end = piece.may_vanish_at_end(&weight);
-            search(self, piece, &mut roots);
+            search(self, piece, Given::Rounded, &mut roots);
             if at_end {
                 ends::check(self, &S::one(), false, &mut roots);
             }
@@ -191,25 +190,16 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     }
 }
 
-/// Appends the roots of p on a piece.
-#[inline]
-fn search<S: Scalar, const N: usize>(p: &Polynomial<S, N>, piece: Piece<S, N>, roots: &mut Roots<S, N>) {
-    isolate(p, piece, Given::Rounded, |isolated| match isolated.found {
-        Found::One(start) => push(roots, crossing(p, isolated.lower, isolated.upper, isolated.after > 0, start)),
-        Found::Cluster(count) => cluster(p, &isolated, count, &mut |root| push(roots, root)),
-    });
-}
-
 /// Appends the roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.
 fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, roots: &mut Roots<S, N>) {
     let border = border::<S>();
     if hi <= border {
-        return search(p, Piece::seated(p, lo, hi, Given::Rounded), roots);
+        return search(p, Piece::seated(p, lo, hi, Given::Rounded), Given::Rounded, roots);
     }
     let one = S::one();
     let mut near = Roots::new();
     if lo < border {
-        search(p, Piece::seated(p, lo.clone(), border.clone(), Given::Rounded), &mut near);
+        search(p, Piece::seated(p, lo.clone(), border.clone(), Given::Rounded), Given::Rounded, &mut near);
     }
     let (reversed, _) = p.reversed().without_zeros();
     // rounded outwards: what this adds is cut off again
@@ -218,7 +208,7 @@ fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S
     let farthest = if hi.is_finite() { (one.clone() - &nudge) / &hi } else { S::zero() };
     let mut far = Roots::new();
     if farthest < nearest {
-        search(&reversed, Piece::seated(&reversed, farthest, nearest, Given::Rounded), &mut far);
+        search(&reversed, Piece::seated(&reversed, farthest, nearest, Given::Rounded), Given::Rounded, &mut far);
     }
     let reciprocal = |t: &S| (one.clone() / t).clamp(lo.clone(), hi.clone());
     let mut far = far.into_iter().rev().filter(|r| !r.value.is_zero()).map(|r| Root {

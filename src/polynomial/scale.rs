@@ -23,7 +23,7 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
 
     /// The sum of moduli is of comfortable size: no scaling needed.
     #[inline]
-    pub(super) fn is_comfortable(weight: &S) -> bool {
+    pub(crate) fn is_comfortable(weight: &S) -> bool {
         *weight < S::one().mul_pow2(COMFORT) && *weight > S::one().mul_pow2(-COMFORT)
     }
 

@@ -111,7 +111,7 @@ fn a_line_break_in_a_style_sheet_stays_out_of_the_warning() {
 #[test]
 fn a_query_so_far_away_that_all_points_are_level() {
     let cubic = Cubic::new(
-        Point::new(-2.337401384030771e-10, -3.3735366301441193),
+        Point::new(-2.337401384030771e-10, -3.373_536_630_144_119),
         Point::new(9.912055258689082e-8, 31655.472100153704),
         Point::new(-0.0016316728112786454, -0.0006994095543232808),
         Point::new(2.3283064365386963e-10, 2.3283064365386963e-10),

@@ -88,7 +88,7 @@ impl Experiment for Table4 {
             "−Δu = 1 with u = 0 on all lines and on the rectangle, in linear elements. Samples: ε = 1, distances from 0.01 to 0.1 \
              (nonuniform: to the density). *uniform*: no edge longer than the density. *nonuniform*: only the smallest angle is \
              bounded. *graded*: edges no longer than the density d, four times lfs at the samples, and d (d/c)^(ω/π−1) where lines \
-             leave an opening of ω, c a twelfth of the rectangle's diagonal; the last two grow with the distance."
+             leave an opening of ω, c a fourteenth of the rectangle's diagonal; the last two grow with the distance."
                 .to_owned(),
             format!("Seconds are {} on one core: *sampling_s* samples and nodes, without the medial axis; *simulation_s* is matrix, \
                      factor and solution, the least of five.", clock::kind()),

@@ -34,7 +34,7 @@ pub const GRADED_GROWTH: f64 = 1.0;
 
 /// The length c of graded sizes at ends and corners, in diagonals of the rectangle: an end of a stroke asks for d²/c. Larger
 /// ones gain on drawings with few ends and lose on those with many; found by experiment, as above.
-pub const GRADED_SCALE: f64 = 1.0 / 12.0;
+pub const GRADED_SCALE: f64 = 1.0 / 14.0;
 
 /// How lines are noded for meshing: the pitch is a hundred-thousandth of the diagonal, or a hundredth of the smallest distance
 /// of samples if that is more. Ten times the noder's own default: between two strokes that run beside each other at a pitch,

@@ -10,9 +10,13 @@
 //! Where flat pieces cross, Newton's method on A(u) = B(v) gives the parameters of the crossing on both cubics, and both
 //! chains get a vertex there, at one point.
 //!
+//! "Apart" is by two pitches: the lattice moves neither of two strokes by more than one, so it never leads a chord that is
+//! not flat through a vertex of another stroke, which might be near the chord and far from the curve.
+//!
 //! **Neighbours.** Pieces that share a vertex always touch there. Where a line through the vertex parts them they cannot
-//! meet elsewhere. Otherwise the halves away from the vertex are tested like any others, and the halves at it are
-//! neighbours again.
+//! meet elsewhere, and where the angle between their chords is large beside their bends, the chords come within two pitches
+//! only so near the vertex that bends do not count. Otherwise the halves away from the vertex are tested like any others, and the
+//! halves at it are neighbours again.
 
 use feature_sampling::geometry::Point;
 
@@ -60,7 +64,7 @@ const MAX_DEPTH: u32 = 40;
 /// Refines the strands; answers how many crossings were put on the curves.
 pub(super) fn refine(strands: &mut [Strand<'_>], origin: &Point<f64>, options: &Options) -> Result<usize, NodeError> {
     let flat = options.pitch / 8.0;
-    let margin = options.pitch / 2.0;
+    let apart = 2.0 * options.pitch;
     let near = options.pitch / 4.0;
     let mut clusters = Clusters::new(near, *origin);
     for strand in strands.iter_mut() {
@@ -69,8 +73,8 @@ pub(super) fn refine(strands: &mut [Strand<'_>], origin: &Point<f64>, options: &
     }
     share(strands, near);
     let pieces = all_pieces(strands);
-    let boxes = Boxes::new(pieces.iter().map(|piece| piece.hull.bounds(margin / 2.0)).collect());
-    let mut search = Search { strands, flat, margin, near, limit: options.limit, found: Vec::new(), crossings: 0 };
+    let boxes = Boxes::new(pieces.iter().map(|piece| piece.hull.bounds(apart / 2.0)).collect());
+    let mut search = Search { strands, flat, apart, near, limit: options.limit, found: Vec::new(), crossings: 0 };
     let mut outcome = Ok(());
     boxes.overlapping(
         |_| true,
@@ -189,7 +193,8 @@ fn halves(track: &Track<'_>, piece: &Piece) -> [Piece; 2] {
 struct Search<'s, 'a> {
     strands: &'s [Strand<'a>],
     flat: f64,
-    margin: f64,
+    /// Pieces farther from each other than this have nothing to do with each other.
+    apart: f64,
     /// Points this near are one.
     near: f64,
     limit: usize,
@@ -243,7 +248,7 @@ impl<'a> Search<'_, 'a> {
     fn strangers(&mut self, a: &Piece, b: &Piece) -> Result<(), NodeError> {
         let mut pending = vec![(*a, *b)];
         while let Some((a, b)) = pending.pop() {
-            if a.hull.is_apart(&b.hull, self.margin) || self.are_twins(&a, &b) {
+            if a.hull.is_apart(&b.hull, self.apart) || self.are_twins(&a, &b) {
                 continue;
             }
             // From here on both have to be pieces of their chains: their halves may be apart where their chords cross.
@@ -282,7 +287,11 @@ impl<'a> Search<'_, 'a> {
                 track_a.is_below(a.from, a.to, &corner, &normal, self.near)
                     && track_b.is_below(b.from, b.to, &corner, &normal.opposite(), self.near)
             });
-            if parted || (self.is_flat(&a) && self.is_flat(&b)) {
+            // The sine of the angle between the chords; of a right one where they leave each other backwards.
+            let spread = if leaves_a.dot(&leaves_b) > 0.0 { leaves_a.cross(&leaves_b).abs() } else { f64::INFINITY };
+            // Three times the deviation over the chord bounds the slope at the vertex.
+            let bend = |piece: &Piece| 8.0 * piece.hull.deviation() / piece.hull.chord;
+            if (parted && bend(&a).max(bend(&b)) <= spread) || (self.is_flat(&a) && self.is_flat(&b)) {
                 break;
             }
             let order = |piece: &Piece, [first, second]: [Piece; 2]| {
@@ -311,9 +320,9 @@ impl<'a> Search<'_, 'a> {
         let between = b.hull.start.minus(&a.hull.start);
         let (s, t) = (between.cross(&chord_b) / area, between.cross(&chord_a) / area);
         let within = |x: f64| (-SLACK..=1.0 + SLACK).contains(&x);
-        // Also false where the chords are parallel. Where they part by less than the pitch over all their length the lattice
+        // Also false where the chords are parallel. Where they part by less than half a pitch over all their length the lattice
         // makes one line of them, and Newton's method would find a crossing anywhere along it.
-        let parts = area.abs() > self.margin * a.hull.chord.max(b.hull.chord);
+        let parts = area.abs() > 2.0 * self.near * a.hull.chord.max(b.hull.chord);
         if !(parts && within(s) && within(t)) {
             return;
         }

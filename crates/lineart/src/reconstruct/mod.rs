@@ -27,6 +27,7 @@ mod crawl;
 mod crust;
 mod disks;
 mod hnn_crust;
+mod insertion;
 mod kd;
 mod nn_crust;
 mod peel;

@@ -22,6 +22,8 @@ use std::fmt;
 use feature_sampling::geometry::Point;
 use spade::{DelaunayTriangulation, HasPosition, MIN_ALLOWED_VALUE, Point2, Triangulation};
 
+use super::insertion;
+
 /// The face outside the convex hull, in [`Edge::faces`].
 pub const OUTER: u32 = u32::MAX;
 
@@ -299,9 +301,19 @@ impl HasPosition for Vertex {
 }
 
 fn triangulation(points: &[Point<f64>]) -> DelaunayTriangulation<Vertex> {
-    let vertices = points.iter().zip(0_u32..).map(|(p, number)| Vertex { position: Point2::new(p.x, p.y), number });
-    // All coordinates are finite and in the domain, which is all that can be wrong.
-    DelaunayTriangulation::bulk_load(vertices.collect()).unwrap_or_default()
+    let mut triangulation = DelaunayTriangulation::with_capacity(points.len(), 3 * points.len(), 2 * points.len());
+    let mut last = None;
+    for number in insertion::order(points) {
+        let p = &points[number as usize];
+        let vertex = Vertex { position: Point2::new(p.x, p.y), number };
+        let inserted = match last {
+            Some(near) => triangulation.insert_with_hint(vertex, near),
+            None => triangulation.insert(vertex),
+        };
+        // All coordinates are finite and in the domain, which is all that can be wrong.
+        last = inserted.ok().or(last);
+    }
+    triangulation
 }
 
 /// The edges of a Delaunay triangulation of distinct points in the domain of `spade`, as pairs of their numbers.

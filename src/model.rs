@@ -7,7 +7,7 @@ use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};
 use crate::certificate::condition::{Workspace, judge};
 use crate::certificate::singular::neighbourhoods;
-use crate::certificate::{Claim, Neighbourhood, Piece, Placed, Verdict};
+use crate::certificate::{Claim, Neighbourhood, Piece, Placed, Step, Verdict};
 use crate::curve::contact::{self, Contact};
 use crate::curve::door::{self, CurveBuffers, CurveError, DoorOptions, DoorReport, Entered, PathInput};
 use crate::curve::{Arc, Curve, CurveParam, Path, Segment, ideal};
@@ -15,6 +15,7 @@ use crate::geometry::Point;
 use crate::geometry::hierarchy::{Item, Node};
 use crate::lfs::bound::Band;
 use crate::lfs::{self, LfsIndex};
+use crate::medial::cell::Cell;
 use crate::medial::clear::Scene;
 use crate::medial::{self, MedialPoint, Resolution};
 use crate::sampling::{self, Sample, SamplingError, SamplingOptions};
@@ -151,8 +152,12 @@ pub struct Judgement<S> {
     pub pieces: Vec<Piece<S>>,
     /// Where a floor serves.
     pub neighbourhoods: Vec<Neighbourhood<S>>,
-    /// Cells of the foot set that were made.
-    pub cells: usize,
+    /// Their steps.
+    pub steps: Vec<Step<S>>,
+    /// Cells of the foot set: roots first, then pairs of halves.
+    pub cells: Vec<Cell<S>>,
+    /// How many of them are roots.
+    pub roots: usize,
 }
 
 impl<S: Directed> CurveModel<S> {
@@ -160,19 +165,21 @@ impl<S: Directed> CurveModel<S> {
     /// with `stop` the first witness ends it.
     pub fn certify(&self, samples: &[Placed<S>], claim: &Claim<S>, cells: usize, stop: bool) -> Judgement<S> {
         let curve = self.curve();
-        let (mut coefficients, mut places, mut extents) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut coefficients, mut places, mut steps, mut extents) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut work = Workspace { pieces: Vec::new(), cells: Vec::new() };
-        let mut run = || -> Result<(Verdict<S>, usize), BufferFull> {
+        let mut roots = 0;
+        let mut run = || -> Result<(Verdict<S>, Vec<Cell<S>>), BufferFull> {
             ideal::coefficients(&curve, &mut coefficients)?;
             let scene = Scene { curve: &curve, ideal: &coefficients };
+            neighbourhoods(&scene, &self.contacts, claim, &mut places, &mut steps, &mut extents)?;
             let mut band = Band::new(scene, Vec::new(), cells)?;
-            neighbourhoods(&mut band, &self.contacts, claim, &mut places, &mut extents)?;
             let verdict = judge(&mut band, samples, claim, &extents, stop, &mut work)?;
-            Ok((verdict, band.len()))
+            roots = band.roots();
+            Ok((verdict, band.into_cells()))
         };
         // Vectors are never full.
-        let (verdict, cells) = run().unwrap_or((Verdict::Unknown, 0));
-        Judgement { verdict, pieces: work.pieces, neighbourhoods: places, cells }
+        let (verdict, cells) = run().unwrap_or((Verdict::Unknown, Vec::new()));
+        Judgement { verdict, pieces: work.pieces, neighbourhoods: places, steps, cells, roots }
     }
 }
 

@@ -301,15 +301,14 @@ where
     fn witness(&self, segment: u32, t: &S, open: [usize; 2]) -> Option<Witness<S>> {
         let point = self.band.scene().curve.segment(segment)?.point(t);
         let slop = self.band.slop();
-        let lfs = self
-            .cells
-            .items()
-            .get(open[0]..open[1])?
-            .iter()
-            .filter_map(|&c| self.band.cells().get(c as usize))
-            .map(|c| c.farthest(&point))
-            .fold(S::infinity(), S::min)
-            + slop;
+        let mut best = (S::infinity(), 0);
+        for &cell in self.cells.items().get(open[0]..open[1])? {
+            let farthest = self.band.cells().get(cell as usize).map_or_else(S::infinity, |c| c.farthest(&point));
+            if farthest < best.0 {
+                best = (farthest, cell);
+            }
+        }
+        let (lfs, cell) = (best.0 + slop, best.1);
         if !lfs.is_finite() {
             return None;
         }
@@ -321,7 +320,7 @@ where
             None => self.claim.singular_floor.clone() * self.band.scene().curve.diagonal,
         };
         let at = CurveParam { segment, t: t.clone() };
-        (distance >= allowed && distance >= floor).then_some(Witness { at, point, distance, lfs })
+        (distance >= allowed && distance >= floor).then_some(Witness { at, point, distance, lfs, cell })
     }
 
     fn add(&mut self, segment: u32, span: [S; 2], sample: u32, reason: Reason<S>) -> Result<(), BufferFull> {

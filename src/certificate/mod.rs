@@ -18,6 +18,7 @@ pub mod singular;
 
 use crate::curve::CurveParam;
 use crate::geometry::Point;
+use crate::medial::Side;
 use crate::scalar::Scalar;
 
 /// A sample: where it is on C, and the point that stands for it.
@@ -90,6 +91,8 @@ pub struct Witness<S> {
     pub distance: S,
     /// At least its lfs.
     pub lfs: S,
+    /// The cell of the band that shows it.
+    pub cell: u32,
 }
 
 /// Why a piece fulfils the condition, or why that is not known.
@@ -129,19 +132,41 @@ pub struct Piece<S> {
     pub reason: Reason<S>,
 }
 
-/// One side of a singular place: a stretch of the path, away from it, on which lfs is so small that a floor serves.
+/// A foot whose medial point is known to be near.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundedFoot<S> {
+    /// Where it is.
+    pub at: CurveParam<S>,
+    /// The side that it is on.
+    pub side: Side,
+    /// The point of C that bounds its radius; without one the curvature does.
+    pub witness: Option<CurveParam<S>>,
+}
+
+/// A stretch of the path around a singular place, on all of which lfs is so small that a floor serves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Neighbourhood<S> {
     /// The path.
     pub path: u32,
-    /// The singular place.
-    pub at: CurveParam<S>,
+    /// A foot beside the place, with a medial point that is nearly there.
+    pub foot: BoundedFoot<S>,
     /// The point there.
     pub point: Point<S>,
     /// About how long the stretch is.
     pub length: S,
-    /// It goes from the place along the path, or against it.
-    pub forwards: bool,
+    /// First of its steps, and how many there are.
+    pub steps: (u32, u32),
+}
+
+/// A step of a neighbourhood, in the order of the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step<S> {
+    /// The segment.
+    pub segment: u32,
+    /// First and last parameter.
+    pub span: [S; 2],
+    /// lfs is small since the medial point of this foot is near; without one, since the place is.
+    pub foot: Option<BoundedFoot<S>>,
 }
 
 /// The part of a neighbourhood on one segment.

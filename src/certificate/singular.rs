@@ -1,83 +1,73 @@
 //! Where lfs falls to 0: singular places, and the stretches of path around them that a floor serves.
 //!
 //! Around a corner, crossing, T-junction or retracted handle the floored condition allows |p−s| < floor on the *stretch* of the
-//! path where ε·lfs is below that floor. That p lies on such a stretch is a claim of its own, and is proved: at the singular
-//! place M comes as near as [`Place::distance`] says, and from there `march` goes along the path in both directions as long
-//! as an upper bound of lfs stays below floor/ε. Upper bounds are |p−x| plus what M is away from x, and those of the medial
-//! points that stand on p itself. What is listed is never longer than the true stretch.
+//! path where ε·lfs is below that floor. That p lies on such a stretch is a claim of its own, and is proved from single feet:
+//! r(f, d) ≤ ρ puts a point of M within ρ of f, so lfs(f) ≤ ρ.
 //!
-//! **Joints.** Where branches leave a point in directions that are not opposite to each other, points on a bisector have two
-//! nearest ones arbitrarily near to it: it belongs to M. So does the end of a branch whose curvature has no bound.
+//! * A **place** is a foot with lfs ≤ 1e-7 of the diagonal. One is looked for beside every corner, contact and retracted handle,
+//!   nearer and nearer, by the radii of tangent disks; a point of C that such a disk cannot hold proves it. So one rule finds all kinds of
+//!   singular points, and says nothing of strokes that only pass each other at a distance.
+//! * From there `March` goes along the path in both directions, in steps on all of which lfs is certainly below floor/ε:
+//!   since the place is near (lfs grows no faster than the distance), or since the medial point of some foot is. Such feet are tried
+//!   between the step and the place: beside a corner the nearest medial point of p stands on feet that are nearer to it.
 //!
-//! **Contacts.** Let f and q be points of two strokes, |f−q| ≤ δ, and let neither stroke, followed from f, reach q within 2δ.
-//! Then M comes within 2δ of f: otherwise all points of the segment from f to q had a unique nearest point, which would move
-//! continuously along C from f to q, and never farther than 2δ from f; since the stroke itself leaves that disk without
-//! meeting q, it would have to change strokes at a crossing, and a crossing with a clear angle belongs to M.
-//! Strokes that touch without an angle, or coincide, are left alone: nothing is claimed about them.
+//! What is listed is never longer than the true stretch.
 
-use super::{Claim, Extent, Neighbourhood};
+use super::{BoundedFoot, Claim, Extent, Neighbourhood, Step};
 use crate::buffer::{BufferFull, Store};
 use crate::curve::contact::Contact;
-use crate::curve::nearest::{Locality, nearest_non_local};
-use crate::curve::{CurveParam, EndId, JointKind};
+use crate::curve::{CurveParam, JointKind};
 use crate::geometry::Point;
-use crate::lfs::bound::Band;
-use crate::medial::cell::Cell;
+use crate::medial::cell::{FootSpan, slop};
+use crate::medial::clear::{Scene, osculates, reaches};
+use crate::medial::disk::tangent_disk;
+use crate::medial::{Foot, Side};
 use crate::scalar::Directed;
 
-/// A point of C near which lfs is 0.
+/// Feet that are tried for each step.
+const FEET: i32 = 8;
+
+/// An upper bound of the radius at a foot, and why.
+fn reach<S: Directed>(scene: &Scene<'_, S>, at: &CurveParam<S>, side: Side) -> (S, Option<CurveParam<S>>) {
+    let CurveParam { segment, t } = at.clone();
+    let span = [t.clone(), t];
+    let Some(feet) = (FootSpan::Normal { segment, span, side }).feet(scene) else { return (S::infinity(), None) };
+    let bent = (osculates(scene, &feet), None);
+    let Some(foot) = Foot::normal(scene.curve, at.clone(), side) else { return bent };
+    let Some(touch) = tangent_disk(scene.curve, &foot).touch else { return bent };
+    let reached = reaches(scene, &feet, touch.at.segment, &touch.at.t);
+    if reached < bent.0 { (reached, Some(touch.at)) } else { bent }
+}
+
+/// A point of C where lfs is nearly 0.
 #[derive(Clone, Debug)]
-pub struct Place<S> {
-    /// Where it is.
-    pub at: CurveParam<S>,
-    /// The point.
-    pub point: Point<S>,
-    /// M comes at least as near as this.
-    pub distance: S,
+struct Place<S> {
+    foot: BoundedFoot<S>,
+    point: Point<S>,
+    /// lfs is at most this.
+    lfs: S,
 }
 
-/// The place of a corner, if it is certain that it belongs to M.
-pub fn corner<S: Directed, B: Store<Cell<S>>>(band: &Band<'_, S, B>, end: EndId) -> Option<Place<S>> {
-    let scene = band.scene();
-    let certain = crate::medial::cell::singular(scene, end);
-    let t = if end.side() == 0 { S::zero() } else { S::one() };
-    let point = scene.curve.end_point(end)?.clone();
-    certain.then(|| Place { at: CurveParam { segment: end.segment(), t }, point, distance: band.slop().clone() })
-}
-
-/// The place of a contact, if it is certain that M comes near it.
-pub fn touching<S: Directed, B: Store<Cell<S>>>(band: &Band<'_, S, B>, contact: &Contact<S>) -> Option<Place<S>> {
-    let curve = band.scene().curve;
-    let at = CurveParam { segment: contact.segment, t: contact.middle() };
-    let segment = curve.segment(at.segment)?;
-    let f = segment.point(&at.t);
-    // Far above rounding, far below every floor.
-    let small = curve.diagonal.clone() / &S::int(10_000_000);
-    let own = Locality::of(curve, &at)?;
-    let near = nearest_non_local(curve, &f, &own, small.clone().square())?;
-    let other = curve.segment(near.at.segment)?;
-    let sine = segment.tangent(&at.t).cross(&other.tangent(&near.at.t)).abs();
-    if sine * &S::int(1000) < S::one() {
-        return None;
-    }
-    let distance = near.distance_sq.sqrt().twice() + band.slop();
-    // Followed from f either way, the stroke leaves the disk on this segment, or ends.
-    let leaves = |side: usize| {
-        let end = segment.end(side);
-        let open = end.kind == JointKind::Open;
-        let mut t = if side == 0 { S::zero() } else { S::one() };
-        let mut left = false;
-        // Halvings of the way, as long as what lies between turns by less than a quarter.
-        for _ in 0..40 {
-            if segment.point(&t).distance(&f) <= distance.clone().twice() {
-                break;
+/// A place beside a parameter of a segment, with lfs at most `limit`.
+fn place<S: Directed>(scene: &Scene<'_, S>, segment: u32, t: &S, limit: &S) -> Option<Place<S>> {
+    let curve = scene.curve.segment(segment)?;
+    for k in 4..24 {
+        let offset = S::one().mul_pow2(-2 * k);
+        for beside in [t.clone() + &offset, t.clone() - &offset] {
+            if beside < S::zero() || beside > S::one() || beside == *t {
+                continue;
             }
-            left |= segment.tangent(&t).dot(&segment.tangent(&at.t)) > S::zero();
-            t = S::midpoint(&t, &at.t);
+            let at = CurveParam { segment, t: beside };
+            for side in [Side::Left, Side::Right] {
+                let (lfs, witness) = reach(scene, &at, side);
+                if lfs <= *limit {
+                    let point = curve.point(&at.t);
+                    return Some(Place { foot: BoundedFoot { at, side, witness }, point, lfs });
+                }
+            }
         }
-        left || open
-    };
-    (leaves(0) && leaves(1)).then(|| Place { at, point: f, distance })
+    }
+    None
 }
 
 /// Finds all singular places and the stretches around them.
@@ -87,46 +77,36 @@ pub fn touching<S: Directed, B: Store<Cell<S>>>(band: &Band<'_, S, B>, contact: 
 ///
 /// # Errors
 /// [`BufferFull`].
-pub fn neighbourhoods<S: Directed, B: Store<Cell<S>>>(
-    band: &mut Band<'_, S, B>,
+pub fn neighbourhoods<S: Directed>(
+    scene: &Scene<'_, S>,
     contacts: &[Contact<S>],
     claim: &Claim<S>,
     places: &mut impl Store<Neighbourhood<S>>,
+    steps: &mut impl Store<Step<S>>,
     extents: &mut impl Store<Extent<S>>,
 ) -> Result<(), BufferFull> {
     places.shorten(0);
+    steps.shorten(0);
     extents.shorten(0);
     if claim.min_distance.is_some() {
         return Ok(());
     }
-    let curve = band.scene().curve;
-    let below =
-        claim.singular_floor.clone() * curve.diagonal / &claim.epsilon * &(S::one() - &S::unit_roundoff().mul_pow2(8));
-    let mut march = March { band, below, places, extents };
-    for (path, index) in curve.paths.iter().zip(0_u32..) {
-        for segment in path.first..path.first + path.count {
-            let Some(s) = curve.segment(segment) else { continue };
-            for side in 0..2 {
-                if s.end(side).kind != JointKind::Corner && !s.end(side).retracted {
-                    continue;
-                }
-                // A twin stands in the joint of the segment that it repeats.
-                let end = match s.twin {
-                    Some(t) => EndId::new(t.segment, if t.reversed { 1 - side } else { side }),
-                    None => EndId::new(segment, side),
-                };
-                if let Some(mut place) = corner(march.band, end) {
-                    place.at = CurveParam { segment, t: if side == 0 { S::zero() } else { S::one() } };
-                    march.from(index, &place, side == 0)?;
-                }
+    let curve = scene.curve;
+    let less = S::one() - &S::unit_roundoff().mul_pow2(8);
+    let below = claim.singular_floor.clone() * curve.diagonal / &claim.epsilon * &less;
+    let limit = claim.floor.clone() * curve.diagonal * &less;
+    let mut march = March { scene, below, slop: slop(scene), places, steps, extents };
+    for (segment, index) in curve.segments.iter().zip(0_u32..) {
+        for side in 0..2 {
+            let end = segment.end(side);
+            if end.kind == JointKind::Corner || end.retracted {
+                let t = if side == 0 { S::zero() } else { S::one() };
+                march.around(index, &t, &limit)?;
             }
         }
     }
     for contact in contacts {
-        let Some(place) = touching(march.band, contact) else { continue };
-        let Some(path) = curve.segment(contact.segment).map(|s| s.path) else { continue };
-        march.from(path, &place, true)?;
-        march.from(path, &place, false)?;
+        march.around(contact.segment, &contact.middle(), &limit)?;
     }
     extents.items_mut().sort_unstable_by(|a, b| {
         a.segment.cmp(&b.segment).then(a.span[0].partial_cmp(&b.span[0]).unwrap_or(core::cmp::Ordering::Equal))
@@ -134,58 +114,132 @@ pub fn neighbourhoods<S: Directed, B: Store<Cell<S>>>(
     Ok(())
 }
 
-struct March<'m, 'b, S, B, P, E> {
-    band: &'m mut Band<'b, S, B>,
+struct March<'m, 's, S, P, T, E> {
+    scene: &'m Scene<'s, S>,
     /// floor/ε.
     below: S,
+    slop: S,
     places: &'m mut P,
+    steps: &'m mut T,
     extents: &'m mut E,
 }
 
-impl<S, B, P, E> March<'_, '_, S, B, P, E>
+impl<S, P, T, E> March<'_, '_, S, P, T, E>
 where
     S: Directed,
-    B: Store<Cell<S>>,
     P: Store<Neighbourhood<S>>,
+    T: Store<Step<S>>,
     E: Store<Extent<S>>,
 {
-    /// Goes along the path from a place, forwards or backwards, while lfs is certainly below the limit.
-    fn from(&mut self, path: u32, place: &Place<S>, forwards: bool) -> Result<(), BufferFull> {
-        let curve = self.band.scene().curve;
-        let Some(&along) = curve.paths.get(path as usize) else { return Ok(()) };
+    /// The neighbourhood of a place beside a parameter, if there is one.
+    fn around(&mut self, segment: u32, t: &S, limit: &S) -> Result<(), BufferFull> {
+        let Some(place) = place(self.scene, segment, t, limit) else { return Ok(()) };
+        let Some(path) = self.scene.curve.segment(segment).map(|s| s.path) else { return Ok(()) };
+        let first = self.steps.items().len();
+        let extent = self.extents.items().len();
+        let back = self.along(path, &place, false)?;
+        let turned = self.extents.items().len();
+        // In the order of the path.
+        if let Some(steps) = self.steps.items_mut().get_mut(first..) {
+            steps.reverse();
+        }
+        let ahead = self.along(path, &place, true)?;
+        self.join(extent, turned);
+        let count = self.steps.items().len() - first;
+        let index = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let Place { foot, point, .. } = place;
+        let length = back + &ahead;
+        self.places.push(Neighbourhood { path, foot, point, length, steps: (index(first), index(count)) })
+    }
+
+    /// Makes the extents before and behind a place one: the first of either direction.
+    fn join(&mut self, first: usize, turned: usize) {
+        let Some([before, ..]) = self.extents.items().get(first..turned) else { return };
+        let Some([behind, ..]) = self.extents.items().get(turned..) else { return };
+        if before.segment != behind.segment || before.span[1] != behind.span[0] {
+            return;
+        }
+        let end = behind.span[1].clone();
+        let last = self.extents.items().len() - 1;
+        if let Some(before) = self.extents.items_mut().get_mut(first) {
+            before.span[1] = end;
+        }
+        self.extents.items_mut().swap(turned, last);
+        self.extents.shorten(last);
+    }
+
+    /// lfs is certainly below the limit on a stretch; if so, why, and about how long it is.
+    fn small(&self, place: &Place<S>, segment: u32, span: &[S; 2], forwards: bool) -> Option<(Step<S>, S)> {
+        let s = self.scene.curve.segment(segment)?;
+        let (middle, half) = middle_of(&s.cubic, &span[0], &span[1]);
+        let step = |foot| Step { segment, span: span.clone(), foot };
+        let straight = middle.distance(&place.point);
+        if straight.clone() + &half + &place.lfs + &self.slop < self.below {
+            return Some((step(None), half.twice()));
+        }
+        if half > self.below.clone().half() {
+            return None;
+        }
+        // Feet from here back to the place, as far as they are on this segment.
+        let t = S::midpoint(&span[0], &span[1]);
+        let back = if place.foot.at.segment == segment {
+            place.foot.at.t.clone()
+        } else if forwards {
+            S::zero()
+        } else {
+            S::one()
+        };
+        for k in 0..FEET {
+            let share = S::ratio(k, FEET);
+            let at = CurveParam { segment, t: (back.clone() - &t) * &share + &t };
+            let foot = s.point(&at.t);
+            for side in [Side::Left, Side::Right] {
+                let (radius, witness) = reach(self.scene, &at, side);
+                if radius >= self.below {
+                    continue;
+                }
+                let direction =
+                    if side == Side::Left { s.tangent(&at.t).left() } else { s.tangent(&at.t).left().opposite() };
+                // M meets the segment from the foot to this point.
+                let far = middle.distance(&foot.plus_scaled(&radius, &direction)).max(middle.distance(&foot));
+                if far + &half + &self.slop.clone().twice() < self.below {
+                    return Some((step(Some(BoundedFoot { at, side, witness })), half.twice()));
+                }
+            }
+        }
+        None
+    }
+
+    /// Goes along the path from a place, forwards or backwards, while lfs is certainly below the limit. Answers how far.
+    fn along(&mut self, path: u32, place: &Place<S>, forwards: bool) -> Result<S, BufferFull> {
+        let mut length = S::zero();
+        let curve = self.scene.curve;
+        let Some(&along) = curve.paths.get(path as usize) else { return Ok(length) };
         let name = u32::try_from(self.places.items().len()).unwrap_or(u32::MAX);
         let least = self.below.clone().mul_pow2(-9);
-        let mut segment = place.at.segment;
-        let mut t = place.at.t.clone();
-        let mut length = S::zero();
+        let most = self.below.clone().half();
+        let CurveParam { mut segment, mut t } = place.foot.at.clone();
         // A step is a 512th of the limit at least, or goes to the end of a segment: the path or the stretch ends it.
-        'segments: for _ in 0..=along.count {
+        for _ in 0..=along.count {
             let Some(s) = curve.segment(segment) else { break };
             let start = t.clone();
             let goal = if forwards { S::one() } else { S::zero() };
-            let mut step = self.below.clone().mul_pow2(-1);
+            let mut size = most.clone();
             while t != goal {
                 // A parameter step for that length, by the speed here and in the end.
                 let speed = s.power.derivative(&t).norm().max(s.power.derivative(&goal).norm());
-                let mut dt = if speed > S::zero() { step.clone() / &speed } else { S::one() };
+                let mut dt = if speed > S::zero() { size.clone() / &speed } else { S::one() };
                 dt = dt.max(S::unit_roundoff().mul_pow2(4));
                 let next =
                     if forwards { (t.clone() + &dt).min(goal.clone()) } else { (t.clone() - &dt).max(goal.clone()) };
-                let (a, b) = if forwards { (&t, &next) } else { (&next, &t) };
-                let (middle, half) = middle_of(&s.cubic, a, b);
-                let straight = middle.distance(&place.point) + &place.distance + &half;
-                let mut sure = straight + self.band.slop() < self.below;
-                if !sure && half <= self.below.clone().mul_pow2(-3) {
-                    let at = CurveParam { segment, t: S::midpoint(a, b) };
-                    let upper = self.band.upper_at(&at, &middle, &self.below) + &half + self.band.slop();
-                    sure = upper < self.below;
-                }
-                if sure {
-                    length = length + &half.twice();
+                let span = if forwards { [t.clone(), next.clone()] } else { [next.clone(), t.clone()] };
+                if let Some((step, long)) = self.small(place, segment, &span, forwards) {
+                    self.steps.push(step)?;
+                    length = length + &long;
                     t = next;
-                    step = (step.clone() * &S::int(2)).min(self.below.clone().mul_pow2(-1));
-                } else if step > least {
-                    step = step.mul_pow2(-2);
+                    size = size.twice().min(most.clone());
+                } else if size > least {
+                    size = size.mul_pow2(-2);
                 } else {
                     break;
                 }
@@ -204,12 +258,12 @@ where
                 (true, true) => 0,
                 (false, _) if k > 0 => k - 1,
                 (false, true) => along.count - 1,
-                _ => break 'segments,
+                _ => break,
             };
             segment = along.first + next;
             t = if forwards { S::zero() } else { S::one() };
         }
-        self.places.push(Neighbourhood { path, at: place.at.clone(), point: place.point.clone(), length, forwards })
+        Ok(length)
     }
 }
 

@@ -82,6 +82,16 @@ impl<'a, S: Directed, B: Store<Cell<S>>> Band<'a, S, B> {
         self.cells.items().len()
     }
 
+    /// How many of the cells are roots; they come first.
+    pub const fn roots(&self) -> usize {
+        self.roots
+    }
+
+    /// All cells, with what is known of them.
+    pub fn into_cells(self) -> B {
+        self.cells
+    }
+
     /// There is no foot at all.
     pub fn is_empty(&self) -> bool {
         self.cells.items().is_empty()
@@ -151,8 +161,9 @@ impl<'a, S: Directed, B: Store<Cell<S>>> Band<'a, S, B> {
         let spread = cell.spread(&cell.lower, &far);
         // The spread may vanish where the capsule is long: what counts is what another division would change.
         let mut movable = cell.half.clone() + &(cell.turning().clone() * &far);
-        // Where C touches a foot nothing is known from below, however small the cell.
-        if cell.lower <= self.slop && movable < axis.clone().mul_pow2(-5) {
+        // Where C touches a foot nothing is known from below, however small the cell; from above, a smaller one may know more as
+        // long as it knows nothing that helps.
+        if cell.lower <= self.slop && cell.upper < *g && movable < axis.clone().mul_pow2(-5) {
             movable = S::zero();
         }
         [axis.half() + &spread, movable]

@@ -17,7 +17,6 @@ use super::clear::{FanFeet, Feet, Scene, Stretch, clears, curvature, osculates, 
 use super::disk::tangent_disk;
 use super::foot::{Foot, Side};
 use crate::curve::ideal::{Enclosed, Outgoing};
-use crate::curve::joint::clockwise_rank;
 use crate::curve::{CurveParam, EndId, JointKind};
 use crate::geometry::{Point, Vector, distance_sq_to_segment};
 use crate::scalar::{Directed, Enclosure as Interval, Field};
@@ -36,8 +35,8 @@ pub enum FootSpan<S> {
         side: Side,
     },
     /// The directions (1−λ)e₁ + λe₂ at an end: e₁ is the unit normal of its branch on the given side of the direction in which
-    /// the branch leaves, e₂ the unit vector opposite to the sum of the two branches' directions (the same branch twice at an
-    /// open end).
+    /// the branch leaves, e₂ the unit vector between e₁ and the normal of the other branch on its other side (the same branch
+    /// twice at an open end).
     Fan {
         /// The end whose branch e₁ is normal to.
         end: EndId,
@@ -175,7 +174,14 @@ impl<S: Directed> FootSpan<S> {
                 let (own, across) = (scene.outgoing(*end)?, scene.outgoing(*other)?);
                 let u = unit(leaving(own));
                 let first = if *left { u.left() } else { u.left().opposite() };
-                let second = unit(&u.plus(&unit(leaving(across)))).opposite();
+                let v = unit(leaving(across));
+                // The bisector, in the one of two ways that divides by something: the branches may be opposite.
+                let sum = u.plus(&v);
+                let second = if *sum.norm_sq().lo() > S::one().mul_pow2(-2) {
+                    unit(&sum).opposite()
+                } else {
+                    unit(&first.plus(&if *left { v.left().opposite() } else { v.left() }))
+                };
                 let lambda = Interval::new(a.clone(), b.clone());
                 let first = first.scaled(&(Interval::int(1) - &lambda));
                 let direction = first.plus(&second.scaled(&lambda));
@@ -405,7 +411,7 @@ impl<S: Directed> Cell<S> {
         }
         self.asked = limit.clone();
         let Some(feet) = self.feet.feet(scene) else { return };
-        let mut witnesses: ArrayVec<CurveParam<S>, 64> = ArrayVec::new();
+        let mut witnesses: ArrayVec<CurveParam<S>, WITNESSES> = ArrayVec::new();
         for which in 0..3 {
             if self.guess[which] >= S::zero() && which != 1 {
                 continue;
@@ -414,8 +420,8 @@ impl<S: Directed> Cell<S> {
             let disk = tangent_disk(scene.curve, &foot);
             self.guess[which] = disk.radius.clone();
             let Some(touch) = disk.touch else { continue };
-            if disk.radius <= slop(scene) {
-                Self::beside(scene, &foot, &touch.at, &mut witnesses);
+            if disk.radius <= self.half.clone() + &slop(scene) {
+                self.beside(scene, &foot, &touch.at, &mut witnesses);
             }
             if witnesses.try_push(touch.at).is_err() {
                 break;
@@ -453,17 +459,34 @@ impl<S: Directed> Cell<S> {
         }
     }
 
-    /// Witnesses where the foot lies on another stroke: the point of contact itself says nothing, points of that stroke beside
-    /// it do, and what bounds the stroke's own disk there.
-    fn beside(scene: &Scene<'_, S>, foot: &Foot<S>, at: &CurveParam<S>, out: &mut ArrayVec<CurveParam<S>, 64>) {
-        let mut offset = S::one().mul_pow2(-2);
-        for _ in 0..8 {
-            for t in [at.t.clone() + &offset, at.t.clone() - &offset] {
-                if t >= S::zero() && t <= S::one() {
-                    let _ = out.try_push(CurveParam { segment: at.segment, t });
+    /// Witnesses where another stroke comes as near as the cell is long, or touches it. The nearest point of that stroke lies ahead of
+    /// some feet and behind others and says nothing of the whole cell; points of it that are a few lengths of the cell farther on do,
+    /// and what bounds the stroke's own disk there.
+    fn beside(
+        &self,
+        scene: &Scene<'_, S>,
+        foot: &Foot<S>,
+        at: &CurveParam<S>,
+        out: &mut ArrayVec<CurveParam<S>, WITNESSES>,
+    ) {
+        let Some(speed) = scene.curve.segment(at.segment).map(|s| s.power.derivative(&at.t).norm()) else { return };
+        // A fan has no length: then every scale from roundings upwards.
+        let (start, growth, steps) =
+            if self.half > S::zero() { (self.half.clone().twice(), 1, 8) } else { (slop(scene).mul_pow2(4), 3, 12) };
+        let mut offset = start / &speed;
+        for _ in 0..steps {
+            for side in 0..2 {
+                let left = if side == 0 { at.t.clone() } else { S::one() - &at.t };
+                // From that end: on this segment, or across the joint.
+                if left >= offset {
+                    let _ = out.try_push(seen_from(EndId::new(at.segment, side), left - &offset));
+                } else if offset <= S::one() {
+                    for other in scene.curve.joint(EndId::new(at.segment, side)).skip(1) {
+                        let _ = out.try_push(seen_from(other, offset.clone() - &left));
+                    }
                 }
             }
-            offset = offset.mul_pow2(-2);
+            offset = offset.mul_pow2(growth);
         }
         let Some(normal) = scene.curve.segment(at.segment).map(|s| s.tangent(&at.t).left()) else { return };
         let side = if normal.dot(&foot.direction) > S::zero() { Side::Left } else { Side::Right };
@@ -501,6 +524,14 @@ impl<S: Directed> Cell<S> {
         proof.radius
     }
 }
+
+/// The place at a parameter that is counted from an end.
+fn seen_from<S: Directed>(end: EndId, u: S) -> CurveParam<S> {
+    CurveParam { segment: end.segment(), t: if end.side() == 0 { u } else { S::one() - &u } }
+}
+
+/// Points of C that are tried as upper bounds: three touchings, and what is beside them.
+const WITNESSES: usize = 80;
 
 /// Pieces that one emptiness proof looks at, at most. Cells that succeed take 20 to 60 on the drawings at hand.
 const TRIES: u32 = 400;
@@ -607,23 +638,36 @@ pub fn roots<S: Directed, E>(
                     if scene.curve.joint(end).all(|e| e >= end) {
                         each(FootSpan::Corner { end })?;
                     }
-                    // The next branch clockwise, and whether more than half a turn lies between.
-                    let rank = |e: &EndId| {
-                        scene.curve.end(*e).map_or_else(S::infinity, |b| clockwise_rank(&here.leaving, &b.leaving))
-                    };
-                    let next =
-                        scene.curve.joint(end).skip(1).map(|e| (rank(&e), e)).fold(None, |best, new| match best {
-                            Some((ref r, _)) if *r <= new.0 => best,
-                            _ => Some(new),
-                        });
-                    if let Some((r, next)) = next
-                        && r > S::int(2)
-                    {
-                        each(FootSpan::Fan { end, other: next, left: false, span: whole() })?;
-                        each(FootSpan::Fan { end: next, other: end, left: true, span: whole() })?;
-                    }
+                    cone(scene, end, &mut each)?;
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+/// The fans of a joint of several branches: those directions that point away from all of them form a cone between the right
+/// normal of one and the left normal of another, such that no branch lies certainly to the right of the first or to the left of
+/// the second. Roundings can leave several such pairs, then all are taken; if they leave none, there is no cone.
+fn cone<S: Directed, E>(
+    scene: &Scene<'_, S>,
+    joint: EndId,
+    each: &mut impl FnMut(FootSpan<S>) -> Result<(), E>,
+) -> Result<(), E> {
+    let direction = |e: EndId| scene.outgoing(e).map(|o| unit(leaving(o)));
+    let extreme = |end: EndId, right: bool| {
+        direction(end).is_some_and(|u| {
+            scene.curve.joint(joint).filter(|e| *e != end).filter_map(direction).all(|v| {
+                let cross = u.cross(&v);
+                if right { *cross.hi() >= S::zero() } else { *cross.lo() <= S::zero() }
+            })
+        })
+    };
+    for end in scene.curve.joint(joint).filter(|&e| extreme(e, true)) {
+        for other in scene.curve.joint(joint).filter(|&e| e != end && extreme(e, false)) {
+            let whole = || [S::zero(), S::one()];
+            each(FootSpan::Fan { end, other, left: false, span: whole() })?;
+            each(FootSpan::Fan { end: other, other: end, left: true, span: whole() })?;
         }
     }
     Ok(())

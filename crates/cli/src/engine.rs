@@ -23,7 +23,7 @@ use feature_sampling::sampling::{Bound, Condition, Sample, SamplingError, Sampli
 use lineart::drawing::{Drawing, DrawingPath};
 use lineart::export::{LfsRow, MedialRow, PathRows, SampleRow, control_box};
 
-pub(crate) use certified::Judged;
+pub(crate) use certified::{Effort, Fault, Judged, recheck};
 
 use crate::errors::{Failure, shown};
 use crate::progress::Progress;
@@ -67,6 +67,21 @@ pub(crate) struct Bounds {
     pub(crate) start: f64,
     /// Most samples on one path.
     pub(crate) limit: u32,
+}
+
+impl Bounds {
+    /// An ε-condition and nothing else, but perhaps a floor.
+    pub(crate) const fn least(epsilon: f64, min_distance: Option<f64>) -> Self {
+        Self {
+            density: Density::Epsilon(epsilon),
+            chord_error: None,
+            min_distance,
+            max_distance: None,
+            grading: None,
+            start: 0.0,
+            limit: 10_000_000,
+        }
+    }
 }
 
 /// The model of a drawing.
@@ -119,10 +134,16 @@ impl<'d> Engine<'d> {
 
     /// Samples.
     pub(crate) fn sample(&self, bounds: &Bounds) -> Result<Vec<PathRows<SampleRow>>, Failure> {
+        self.sampled(bounds, 1.0).map(|samples| self.sample_rows(samples, bounds))
+    }
+
+    /// Samples of each path of C, for upper bounds and floors that are `aim` times what is asked.
+    fn sampled(&self, bounds: &Bounds, aim: f64) -> Result<Vec<Vec<Sample<f64>>>, Failure> {
+        let default = SamplingOptions::default();
         let options = SamplingOptions {
             condition: match bounds.density {
-                Density::Epsilon(epsilon) => Condition::Epsilon(epsilon),
-                Density::Rho(rho) => Condition::Rho(rho),
+                Density::Epsilon(epsilon) => Condition::Epsilon(epsilon * aim),
+                Density::Rho(rho) => Condition::Rho(rho * aim),
             },
             chord_error: bounds.chord_error,
             min_distance: bounds.min_distance,
@@ -131,25 +152,31 @@ impl<'d> Engine<'d> {
             start: bounds.start,
             tolerance: self.options.tolerance,
             limit: bounds.limit,
-            ..SamplingOptions::default()
+            singular_floor: default.singular_floor * aim,
+            floor: default.floor * aim,
+            ..default
         };
         options.check().map_err(Failure::usage)?;
         let sampled = each_path(&self.curve, "sampling", &self.options, |path| {
             self.curve.sample_path(&self.medial, path, &options)
         });
-        let mut rows = Vec::new();
-        for samples in sampled {
-            rows.push(match samples {
-                Ok(samples) => samples.iter().map(|sample| self.sample_row(sample, bounds)).collect(),
-                Err(SamplingError::Limit(limit)) => {
-                    let advice = "raise --max-samples, or ask for less with --min-distance";
-                    let name = shown(&self.drawing.source);
-                    return Err(Failure::limit(format!("{name}: a path needs more than {limit} samples: {advice}")));
-                }
-                Err(error) => return Err(Failure::usage(error)),
-            });
-        }
-        Ok(self.by_path(|index| rows.get_mut(index).map(std::mem::take).unwrap_or_default()))
+        let samples = sampled.into_iter().map(|samples| match samples {
+            Ok(samples) => Ok(samples),
+            Err(SamplingError::Limit(limit)) => {
+                let advice = "raise --max-samples, or ask for less with --min-distance";
+                let name = shown(&self.drawing.source);
+                Err(Failure::limit(format!("{name}: a path needs more than {limit} samples: {advice}")))
+            }
+            Err(error) => Err(Failure::usage(error)),
+        });
+        samples.collect()
+    }
+
+    /// Samples of each path of C as rows by path of the drawing.
+    fn sample_rows(&self, samples: Vec<Vec<Sample<f64>>>, bounds: &Bounds) -> Vec<PathRows<SampleRow>> {
+        let row = |sample: &Sample<f64>| self.sample_row(sample, bounds);
+        let mut rows: Vec<Vec<SampleRow>> = samples.iter().map(|samples| samples.iter().map(row).collect()).collect();
+        self.by_path(|index| rows.get_mut(index).map(std::mem::take).unwrap_or_default())
     }
 
     fn sample_row(&self, sample: &Sample<f64>, bounds: &Bounds) -> SampleRow {

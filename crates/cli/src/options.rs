@@ -18,7 +18,7 @@ use lineart::mesh;
 use lineart::reconstruct::Algorithm;
 use lineart::units::Length;
 
-use crate::engine::{Bounds, Density, ModelOptions};
+use crate::engine::{Bounds, Density, Effort, ModelOptions};
 use crate::errors::Failure;
 use crate::number_in::number;
 
@@ -77,6 +77,7 @@ Examples:
   fsample sample drawing.svg                              a table on standard output
   fsample sample drawing.svg -o samples.svg               a picture in layers
   fsample sample drawing.svg --epsilon 0.66 -o points.ply for a mesher
+  fsample sample drawing.svg --certified                  proved to be an ε-sample
   fsample sample drawing.svg --chord-error 0.1mm --min-distance 0.05mm --feed 2000 -o plot.gcode
   fsample sample - --format json < drawing.svg            from and to a pipe")]
 pub(crate) struct SampleArgs {
@@ -86,6 +87,12 @@ pub(crate) struct SampleArgs {
     pub(crate) output: OutputArgs,
     #[command(flatten)]
     pub(crate) sampling: SamplingArgs,
+    /// Prove the result: with every rounding accounted for, each point of the curves has a sample as near as --epsilon says.
+    /// Samples that cannot be proved are not written, and the exit code is 1
+    #[arg(long, conflicts_with = "rho")]
+    pub(crate) certified: bool,
+    #[command(flatten)]
+    pub(crate) effort: EffortArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     /// Layers of an SVG result, from drawing, lfs, medial, samples
@@ -151,7 +158,8 @@ pub(crate) struct LfsArgs {
 Examples:
   fsample certify drawing.svg --epsilon 0.5
   fsample sample drawing.svg --epsilon 0.495 > s.csv && fsample certify drawing.svg --samples s.csv --epsilon 0.5
-  fsample certify drawing.svg --epsilon 0.5 -o certificate.json")]
+  fsample certify drawing.svg --epsilon 0.5 -o certificate.json
+  fsample certify drawing.svg --check certificate.json")]
 pub(crate) struct CertifyArgs {
     #[command(flatten)]
     pub(crate) input: InputArg,
@@ -159,47 +167,73 @@ pub(crate) struct CertifyArgs {
     #[arg(long, value_name = "CSV")]
     pub(crate) samples: Option<String>,
     /// What is to be proved: a sample nearer than E times the local feature size, everywhere
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
-    pub(crate) epsilon: f64,
+    #[arg(long, value_name = "E", allow_negative_numbers = true, required_unless_present = "check")]
+    pub(crate) epsilon: Option<f64>,
     /// A distance that is near enough in any case, to one of the two neighbours along the path
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
     pub(crate) min_distance: Option<Length>,
-    /// Where samples are placed first: aim this share below ε
-    #[arg(
-        long,
-        value_name = "SHARE",
-        default_value_t = 0.01,
-        allow_negative_numbers = true,
-        conflicts_with = "samples"
-    )]
-    pub(crate) slack: f64,
-    /// Answer unknown where more cells of the foot set would be needed
-    #[arg(long, value_name = "N", default_value_t = 4_000_000, value_parser = clap::value_parser!(u32).range(1..))]
-    pub(crate) max_cells: u32,
+    #[command(flatten)]
+    pub(crate) effort: EffortArgs,
     /// Write the certificate to this file, as JSON
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// Re-check this certificate of the drawing instead: evaluate every claim in it, and search for nothing. With --epsilon or
+    /// --samples, it must be about no larger ε and about these samples; - is standard input
+    #[arg(long, value_name = "JSON", conflicts_with_all = ["min_distance", "slack", "max_cells", "output"])]
+    pub(crate) check: Option<String>,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
 }
 
 impl CertifyArgs {
-    /// The slack, if all options make sense without the drawing.
-    pub(crate) fn check(&self) -> Result<f64, Failure> {
-        share("epsilon", self.epsilon)?;
+    /// ε and what may be spent, if all options make sense without the drawing.
+    pub(crate) fn check(&self) -> Result<(f64, Effort), Failure> {
+        let epsilon = self.epsilon.unwrap_or_default();
+        share("epsilon", epsilon)?;
         if let Some(length) = self.min_distance {
             above("min-distance", 0.0, length.value())?;
         }
-        if self.slack > 0.0 && self.slack < 1.0 {
-            Ok(self.slack)
-        } else {
-            Err(Failure::usage(format!("--slack is {}; it lies between 0 and 1", self.slack)))
-        }
+        Ok((epsilon, self.effort.check()?))
     }
 
     /// The floor in user units.
     pub(crate) fn min_distance(&self, drawing: &Drawing, diagonal: f64) -> Result<Option<f64>, Failure> {
         self.min_distance.map(|l| resolve("min-distance", l, drawing.user_units_per_mm, diagonal)).transpose()
+    }
+}
+
+/// What may be spent on a proof.
+#[derive(Args, Debug)]
+pub(crate) struct EffortArgs {
+    /// Where samples are placed to be proved: aim this share below ε [default: 0.01]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub(crate) slack: Option<f64>,
+    /// Answer unknown where more cells of the foot set would be needed [default: 4000000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) max_cells: Option<u32>,
+}
+
+impl SampleArgs {
+    /// ε and what may be spent, if the result is to be proved.
+    pub(crate) fn proof(&self) -> Result<Option<(f64, Effort)>, Failure> {
+        if self.certified {
+            return Ok(Some((self.sampling.epsilon.unwrap_or(0.5), self.effort.check()?)));
+        }
+        match self.effort {
+            EffortArgs { slack: None, max_cells: None } => Ok(None),
+            _ => Err(Failure::usage("--slack and --max-cells are for --certified")),
+        }
+    }
+}
+
+impl EffortArgs {
+    fn check(&self) -> Result<Effort, Failure> {
+        let slack = self.slack.unwrap_or(0.01);
+        if slack > 0.0 && slack < 1.0 {
+            Ok(Effort { slack, cells: self.max_cells.unwrap_or(4_000_000) })
+        } else {
+            Err(Failure::usage(format!("--slack is {slack}; it lies between 0 and 1")))
+        }
     }
 }
 

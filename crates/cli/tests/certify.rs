@@ -50,8 +50,9 @@ fn a_sample_less_is_refuted_and_the_witness_breaks_the_condition() {
     assert!(ran.out.starts_with("refuted at ("), "{}", ran.out);
     let certificate: Value = serde_json::from_str(&place.get("c.json")).expect("JSON");
     let witness = &certificate["witness"];
-    let [x, y, distance, lfs] =
-        ["x", "y", "distance_at_least", "lfs_at_most"].map(|name| witness[name].as_f64().expect("a number"));
+    let number = |object: &Value, name: &str| object[name].as_f64().expect("a number");
+    let [distance, lfs] = ["distance_at_least", "lfs_at_most"].map(|name| number(witness, name));
+    let [x, y] = ["x", "y"].map(|name| number(&certificate["witness_at"], name));
     assert!(distance >= 0.5 * lfs, "{witness}");
     // Independently of the program: the nearest of the samples that were given.
     let nearest = fewer[1..]
@@ -62,6 +63,32 @@ fn a_sample_less_is_refuted_and_the_witness_breaks_the_condition() {
         })
         .fold(f64::INFINITY, f64::min);
     assert!(distance <= nearest, "{distance} for {nearest}");
+}
+
+#[test]
+fn certificates_are_rechecked() {
+    let place = ellipse();
+    place.ok("certify ellipse.svg --samples samples.csv --epsilon 0.5 --quiet -o c.json");
+    assert_eq!(place.ok("certify ellipse.svg --check c.json --quiet"), "proved\n");
+    assert_eq!(place.ok("certify ellipse.svg --check c.json --samples samples.csv --epsilon 0.5 --quiet"), "proved\n");
+    // Of other samples, of a smaller ε, of another curve.
+    let fewer: Vec<String> =
+        place.get("samples.csv").lines().enumerate().filter(|(i, _)| *i != 4).map(|(_, l)| l.to_owned()).collect();
+    place.put("fewer.csv", &fewer.join("\n"));
+    place.fails("certify ellipse.svg --check c.json --samples fewer.csv --quiet", 1, &["rejected", "other samples"]);
+    place.fails("certify ellipse.svg --check c.json --epsilon 0.4 --quiet", 1, &["rejected", "0.5"]);
+    place.put("other.svg", &place.get("ellipse.svg").replace("ry=\"1\"", "ry=\"1.001\""));
+    place.fails("certify other.svg --check c.json --quiet", 1, &["rejected", "another curve"]);
+    // A claim that was changed.
+    place.put("bold.json", &place.get("c.json").replace("\"epsilon\": 0.5", "\"epsilon\": 0.45"));
+    place.fails("certify ellipse.svg --check bold.json --quiet", 1, &["rejected", "piece"]);
+    // What a refuted one shows holds, and the answer is no.
+    place.run("certify ellipse.svg --samples fewer.csv --epsilon 0.5 --quiet -o r.json");
+    let ran = place.run("certify ellipse.svg --check r.json --quiet");
+    assert!(ran.code == 1 && ran.out.starts_with("refuted at ("), "{} {}", ran.out, ran.err);
+    place.put("broken.json", "{\"format\": 1}");
+    place.fails("certify ellipse.svg --check broken.json", 3, &["broken.json", "certificate"]);
+    place.fails("certify ellipse.svg --check c.json -o d.json", 2, &["--check"]);
 }
 
 #[test]
@@ -82,4 +109,27 @@ fn what_makes_no_sense_is_refused() {
     place.fails("certify ellipse.svg --samples bad.csv --epsilon 0.5", 3, &["bad.csv", "line 2"]);
     place.put("off.csv", "path,segment,t,x,y\n0,0,0.5,1,1\n");
     place.fails("certify ellipse.svg --samples off.csv --epsilon 0.5 --quiet", 1, &["line 2", "not on the curve"]);
+}
+
+#[test]
+fn certified_samples_are_proved_and_hardly_more() {
+    let place = ellipse();
+    // A corner and a crossing, where lfs is 0.
+    let strokes = r#"<svg xmlns="http://www.w3.org/2000/svg"><g fill="none"><path d="M0 0 C1 0.5 2 0.5 3 0 C3.2 1 3 2 2 3"/><path d="M1 -1 C1.2 0 1.6 1 1.5 2"/></g></svg>"#;
+    place.put("strokes.svg", strokes);
+    for drawing in ["ellipse.svg", "strokes.svg"] {
+        let rows = |table: &str| table.lines().count() - 1;
+        let plain = rows(&place.ok(&format!("sample {drawing} --epsilon 0.5 --quiet")));
+        let certified = place.ok(&format!("sample {drawing} --epsilon 0.5 --certified --quiet"));
+        let more = rows(&certified).saturating_sub(plain);
+        assert!(more <= 1 + plain / 50, "{drawing}: {more} more than {plain}");
+        place.put("certified.csv", &certified);
+        let answer = place.ok(&format!("certify {drawing} --samples certified.csv --epsilon 0.5 --quiet -o c.json"));
+        assert_eq!(answer, "proved\n", "{drawing}");
+        assert_eq!(place.ok(&format!("certify {drawing} --check c.json --samples certified.csv --quiet")), "proved\n");
+    }
+    place.fails("sample ellipse.svg --certified --rho 0.5", 2, &["--rho"]);
+    place.fails("sample ellipse.svg --slack 0.1", 2, &["--certified"]);
+    place.fails("sample ellipse.svg --certified --slack 2", 2, &["slack"]);
+    place.fails("sample ellipse.svg --certified --max-cells 3 --quiet", 1, &["could not be proved"]);
 }

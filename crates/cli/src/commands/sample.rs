@@ -8,7 +8,7 @@ use crate::errors::Failure;
 use crate::options::{Layer, SampleArgs};
 use crate::output::{Format, Target};
 use crate::progress::Progress;
-use crate::summary::Summary;
+use crate::summary::{Summary, count};
 use crate::{input, job};
 
 /// Samples a drawing.
@@ -25,6 +25,11 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
         return Err(Failure::usage(format!("pen and feed options are for gcode, and the result is {}", target.format)));
     }
 
+    let proof = args.proof()?;
+    if proof.is_some() && target.format == Format::Fsj {
+        return Err(Failure::usage("a job's samples are placed on the chip: --certified says nothing about them"));
+    }
+
     let quiet = args.model.quiet;
     let mut summary = Summary::start(quiet);
     let drawing = input::drawing(&args.input.file, quiet)?;
@@ -37,7 +42,17 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
         return target.write(|out| out.write_all(&bytes));
     }
     let progress = Progress::new("sampling", quiet);
-    let paths = engine.sample(&bounds)?;
+    let paths = match proof {
+        None => engine.sample(&bounds)?,
+        Some((epsilon, effort)) => {
+            let (paths, judged) = engine.sample_certified(&bounds, epsilon, effort)?;
+            if !judged.proved() {
+                let left = count(judged.unknown(), "piece");
+                return Err(Failure::no(format!("{}: {left} could not be proved: raise --slack", args.input.file)));
+            }
+            paths
+        }
+    };
     drop(progress);
 
     let mut described = bounds.describe();
@@ -66,6 +81,9 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
     })?;
 
     summary.samples(&paths, &bounds);
+    if let Some((epsilon, _)) = proof {
+        summary.say(format!("proved at ε = {epsilon}"));
+    }
     summary.door(&engine.door());
     summary.print(&args.input.file);
     Ok(())

@@ -1,26 +1,20 @@
 //! Certificates: samples of a drawing judged by the kernel, and the answer in terms of the drawing.
 
-use feature_sampling::certificate::{Claim, Placed, Reason, Verdict};
+use feature_sampling::certificate::{Claim, Placed, Verdict};
 use feature_sampling::curve::CurveParam;
 use feature_sampling::geometry::Point;
-use feature_sampling::sampling::{Condition, SamplingError, SamplingOptions};
+use feature_sampling::model::{CurveModel, Judgement};
+use feature_sampling::sampling::{Bound, Sample};
+use fsample_recheck::{Certificate, Proved, Why};
+use lineart::drawing::Drawing;
+use lineart::export::{PathRows, SampleRow};
 
-use super::{Door, Engine};
+use super::{Bounds, Density, Door, Engine, curve_model};
 use crate::errors::{Failure, shown};
 use crate::input::GivenSample;
 
 /// Samples that are added where placed samples could not be proved: so many rounds.
 const ROUNDS: usize = 4;
-
-/// A place of the drawing.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Spot {
-    pub(crate) path: u32,
-    pub(crate) segment: u32,
-    pub(crate) t: f64,
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-}
 
 /// A point where the condition fails.
 #[derive(Clone, Copy, Debug)]
@@ -34,38 +28,14 @@ pub(crate) struct Fault {
     pub(crate) lfs: f64,
 }
 
-/// One side of a singular place.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stretch {
-    pub(crate) path: u32,
-    pub(crate) segment: u32,
-    pub(crate) t: f64,
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) forwards: bool,
-    pub(crate) length: f64,
-}
-
-/// A piece of the drawing with its reason.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Proof {
-    pub(crate) path: u32,
-    pub(crate) segment: u32,
-    pub(crate) from: f64,
-    pub(crate) to: f64,
-    pub(crate) sample: Option<u32>,
-    pub(crate) reason: &'static str,
-    pub(crate) proves: bool,
-    pub(crate) lfs: Option<f64>,
-}
-
 /// The answer.
 #[derive(Debug)]
 pub(crate) struct Judged {
-    pub(crate) samples: Vec<Spot>,
-    pub(crate) pieces: Vec<Proof>,
-    pub(crate) neighbourhoods: Vec<Stretch>,
+    pub(crate) certificate: Certificate,
     pub(crate) witness: Option<Fault>,
+    /// Path, cubic and parameters of the drawing that each segment of the certificate stands for.
+    pub(crate) segments: Vec<(u32, u32, f64, f64)>,
+    /// Cells that were made to find the answer.
     pub(crate) cells: usize,
     pub(crate) door: Door,
 }
@@ -73,79 +43,135 @@ pub(crate) struct Judged {
 impl Judged {
     /// Pieces without proof.
     pub(crate) fn unknown(&self) -> usize {
-        self.pieces.iter().filter(|p| !p.proves).count()
+        self.certificate.pieces.iter().filter(|p| p.why == Why::Unknown).count()
     }
 
     /// All of C is proved.
     pub(crate) fn proved(&self) -> bool {
         self.witness.is_none() && self.unknown() == 0
     }
+}
 
-    /// The verdict in one word.
-    pub(crate) fn verdict(&self) -> &'static str {
-        match (&self.witness, self.unknown()) {
-            (Some(_), _) => "refuted",
-            (None, 0) => "proved",
-            _ => "unknown",
+/// Re-checks a certificate of a drawing. Answers what it shows, or why it is rejected.
+pub(crate) fn recheck(
+    drawing: &Drawing,
+    certificate: &Certificate,
+    samples: Option<&[GivenSample]>,
+) -> Result<Result<Rechecked, String>, Failure> {
+    let curve = curve_model(drawing, certificate.corner_angle)?;
+    if let Some(given) = samples {
+        let sorted = |mut points: Vec<(f64, f64)>| {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+            points
+        };
+        let claimed = sorted(certificate.samples.iter().map(|s| (s.x, s.y)).collect());
+        if claimed != sorted(given.iter().map(|s| (s.x, s.y)).collect()) {
+            return Ok(Err("it is about other samples".to_owned()));
         }
     }
+    Ok(match fsample_recheck::check(curve.curve(), certificate) {
+        Ok(Proved::Sample { claims }) => Ok(Rechecked { fault: None, claims }),
+        Ok(Proved::Fault(w)) => {
+            let at = CurveParam { segment: w.at.segment, t: w.at.t };
+            Ok(Rechecked { fault: Some(fault(&curve, &at, w.distance, w.lfs)), claims: 1 })
+        }
+        Err(rejection) => Err(rejection.to_string()),
+    })
+}
+
+/// A certificate that holds.
+#[derive(Debug)]
+pub(crate) struct Rechecked {
+    /// Where the condition fails, if that is what it shows.
+    pub(crate) fault: Option<Fault>,
+    /// Claims about radii that were evaluated.
+    pub(crate) claims: usize,
+}
+
+fn fault(model: &CurveModel<f64>, at: &CurveParam<f64>, distance: f64, lfs: f64) -> Fault {
+    let (path, segment, t) = model.source(at);
+    let point = model.curve().point(at).unwrap_or_default();
+    Fault { path, segment, t, x: point.x, y: point.y, distance, lfs }
+}
+
+/// How much may be spent on a proof.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Effort {
+    /// Samples are placed for this share less of ε and of the floors.
+    pub(crate) slack: f64,
+    /// Most cells of the foot set.
+    pub(crate) cells: u32,
+}
+
+fn in_order(placed: &mut [Placed<f64>]) {
+    placed.sort_by(|a, b| (a.path, a.at.segment).cmp(&(b.path, b.at.segment)).then(a.at.t.total_cmp(&b.at.t)));
 }
 
 impl Engine<'_> {
-    /// Judges samples: those given, or such as are placed here with some slack.
+    /// Judges samples that are given.
     pub(crate) fn certify(
         &self,
-        given: Option<&[GivenSample]>,
+        given: &[GivenSample],
         epsilon: f64,
         min_distance: Option<f64>,
-        slack: f64,
-        cells: u32,
+        effort: Effort,
     ) -> Result<Judged, Failure> {
         let claim = Claim { min_distance, ..Claim::new(epsilon) };
-        let mut placed = match given {
-            Some(given) => self.placed(given)?,
-            None => self.place(&claim, slack)?,
-        };
-        let cells = usize::try_from(cells).unwrap_or(usize::MAX);
+        let mut placed = self.placed(given)?;
+        in_order(&mut placed);
+        let cells = usize::try_from(effort.cells).unwrap_or(usize::MAX);
+        Ok(self.judged(&placed, &claim, &self.curve.certify(&placed, &claim, cells, false)))
+    }
+
+    /// Samples that are placed with some slack and judged, with one more wherever they could not be proved.
+    pub(crate) fn sample_certified(
+        &self,
+        bounds: &Bounds,
+        epsilon: f64,
+        effort: Effort,
+    ) -> Result<(Vec<PathRows<SampleRow>>, Judged), Failure> {
+        let claim = Claim { min_distance: bounds.min_distance, ..Claim::new(epsilon) };
+        let bounds = Bounds { density: Density::Epsilon(epsilon), ..*bounds };
+        let mut samples = self.sampled(&bounds, 1.0 - effort.slack)?;
+        let cells = usize::try_from(effort.cells).unwrap_or(usize::MAX);
         let mut round = 0;
         loop {
-            placed.sort_by(|a, b| (a.path, a.at.segment).cmp(&(b.path, b.at.segment)).then(a.at.t.total_cmp(&b.at.t)));
+            let place = |s: &Sample<f64>| Placed { path: s.path, at: s.at, point: s.point };
+            let mut placed: Vec<Placed<f64>> = samples.iter().flatten().map(place).collect();
+            in_order(&mut placed);
             let judgement = self.curve.certify(&placed, &claim, cells, false);
             round += 1;
-            if given.is_some() || judgement.verdict == Verdict::Proved || round > ROUNDS {
-                return Ok(self.judged(&placed, &judgement));
+            if judgement.verdict == Verdict::Proved || round > ROUNDS {
+                let judged = self.judged(&placed, &claim, &judgement);
+                return Ok((self.sample_rows(samples, &bounds), judged));
             }
-            // One more sample in the middle of each run of pieces that were not proved.
-            let curve = self.curve.curve();
-            let mut last: Option<(u32, f64)> = None;
-            for piece in judgement.pieces.iter().filter(|p| !p.reason.proves()) {
-                let joins = last.is_some_and(|(segment, end)| segment == piece.segment && end >= piece.span[0]);
-                last = Some((piece.segment, piece.span[1]));
-                let t = 0.5 * (piece.span[0] + piece.span[1]);
-                let at = CurveParam { segment: piece.segment, t };
-                if let (false, Some(point), Some(s)) = (joins, curve.point(&at), curve.segment(piece.segment)) {
-                    placed.push(Placed { path: s.path, at, point });
-                }
-            }
+            self.add_samples(&mut samples, &judgement);
         }
     }
 
-    /// Samples placed with slack: below ε, and below the floors.
-    fn place(&self, claim: &Claim<f64>, slack: f64) -> Result<Vec<Placed<f64>>, Failure> {
-        let aim = 1.0 - slack;
-        let options = SamplingOptions {
-            condition: Condition::Epsilon(claim.epsilon * aim),
-            min_distance: claim.min_distance,
-            singular_floor: claim.singular_floor * aim,
-            floor: claim.floor * aim,
-            tolerance: self.options.tolerance,
-            ..SamplingOptions::default()
-        };
-        let samples = self.curve.sample(&self.medial, &options).map_err(|error| match error {
-            SamplingError::Limit(limit) => Failure::limit(format!("a path needs more than {limit} samples")),
-            error => Failure::usage(error),
-        })?;
-        Ok(samples.iter().map(|s| Placed { path: s.path, at: s.at, point: s.point }).collect())
+    /// One more sample in the middle of each run of pieces that were not proved.
+    fn add_samples(&self, samples: &mut [Vec<Sample<f64>>], judgement: &Judgement<f64>) {
+        let curve = self.curve.curve();
+        let mut last: Option<(u32, f64)> = None;
+        for piece in judgement.pieces.iter().filter(|p| !p.reason.proves()) {
+            let joins = last.is_some_and(|(segment, end)| segment == piece.segment && end >= piece.span[0]);
+            last = Some((piece.segment, piece.span[1]));
+            let at = CurveParam { segment: piece.segment, t: 0.5 * (piece.span[0] + piece.span[1]) };
+            let (false, Some(point), Some(s)) = (joins, curve.point(&at), curve.segment(piece.segment)) else {
+                continue;
+            };
+            let Some(own) = samples.get_mut(s.path as usize) else { continue };
+            let new = Sample { path: s.path, at, point, lfs: self.medial.lfs(&point), bound: Bound::Epsilon };
+            // Behind the last one before it along the path; before all others, behind the last of all: where a closed path
+            // that starts elsewhere comes round.
+            let order = |a: &CurveParam<f64>, b: &CurveParam<f64>| a.segment.cmp(&b.segment).then(a.t.total_cmp(&b.t));
+            let position = |before: &dyn Fn(&Sample<f64>) -> bool| {
+                let found = own.iter().enumerate().filter(|(_, s)| before(s));
+                found.max_by(|a, b| order(&a.1.at, &b.1.at)).map(|(i, _)| i + 1)
+            };
+            let index = position(&|s| order(&s.at, &at).is_lt()).or_else(|| position(&|_| true)).unwrap_or(0);
+            own.insert(index, new);
+        }
     }
 
     /// Places of the drawing as places on C.
@@ -186,45 +212,19 @@ impl Engine<'_> {
             .collect()
     }
 
-    fn judged(&self, placed: &[Placed<f64>], judgement: &feature_sampling::model::Judgement<f64>) -> Judged {
-        let spot = |at: &CurveParam<f64>, p: &Point<f64>| {
-            let (path, segment, t) = self.curve.source(at);
-            Spot { path, segment, t, x: p.x, y: p.y }
-        };
-        let pieces = judgement.pieces.iter().map(|p| {
-            let [from, to] =
-                [&p.span[0], &p.span[1]].map(|t| self.curve.source(&CurveParam { segment: p.segment, t: *t }));
-            let (reason, lfs) = match &p.reason {
-                Reason::Feature(lfs) => ("feature", Some(*lfs)),
-                Reason::Floor => ("floor", None),
-                Reason::Neighbourhood(_) => ("neighbourhood", None),
-                Reason::Fine => ("unknown: too fine", None),
-                Reason::Cells => ("unknown: too many cells", None),
-                Reason::Pieces => ("unknown: too many pieces", None),
-            };
-            let sample = (p.sample != u32::MAX).then_some(p.sample);
-            let proves = p.reason.proves();
-            Proof { path: from.0, segment: from.1, from: from.2, to: to.2, sample, reason, proves, lfs }
-        });
+    fn judged(&self, placed: &[Placed<f64>], claim: &Claim<f64>, judgement: &Judgement<f64>) -> Judged {
+        let certificate =
+            fsample_recheck::certificate(&self.curve, placed, claim, self.options.corner_angle, judgement);
         let witness = match &judgement.verdict {
-            Verdict::Refuted(w) => {
-                let Spot { path, segment, t, x, y } = spot(&w.at, &w.point);
-                Some(Fault { path, segment, t, x, y, distance: w.distance, lfs: w.lfs })
-            }
+            Verdict::Refuted(w) => Some(fault(&self.curve, &w.at, w.distance, w.lfs)),
             _ => None,
         };
-        let neighbourhoods = judgement.neighbourhoods.iter().map(|n| {
-            let Spot { path, segment, t, x, y } = spot(&n.at, &n.point);
-            Stretch { path, segment, t, x, y, forwards: n.forwards, length: n.length }
-        });
-        Judged {
-            samples: placed.iter().map(|s| spot(&s.at, &s.point)).collect(),
-            pieces: pieces.collect(),
-            neighbourhoods: neighbourhoods.collect(),
-            witness,
-            cells: judgement.cells,
-            door: self.door(),
-        }
+        let source = |segment: u32| {
+            let (path, cubic, from) = self.curve.source(&CurveParam { segment, t: 0.0 });
+            (path, cubic, from, self.curve.source(&CurveParam { segment, t: 1.0 }).2)
+        };
+        let segments = (0..).zip(self.curve.curve().segments).map(|(i, _)| source(i)).collect();
+        Judged { certificate, witness, segments, cells: judgement.cells.len(), door: self.door() }
     }
 }
 

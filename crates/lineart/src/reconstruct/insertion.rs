@@ -44,8 +44,8 @@ fn round(number: u32) -> u32 {
 fn hilbert(mut x: u32, mut y: u32) -> u64 {
     let mut along = 0;
     for level in (0..BITS).rev() {
-        let (right, up) = (x >> level & 1, y >> level & 1);
-        along = along << 2 | u64::from(3 * right ^ up);
+        let (right, up) = ((x >> level) & 1, (y >> level) & 1);
+        along = (along << 2) | u64::from((3 * right) ^ up);
         // The quarters at the ends are turned.
         if up == 0 {
             if right == 1 {

@@ -54,6 +54,7 @@ pub const TABLE: &[Entry] = &[
     through("bezier::cubic::Cubic::line", "bezier::cubic::Cubic::quadratic"),
     through("bezier::cubic::Cubic::move_end", "geometry::point::Point::plus"),
     exact("bezier::cubic::Cubic::new", "a copy"),
+    through("bezier::cubic::Cubic::part", "bezier::cubic::Cubic::split_at"),
     measured!("bezier::cubic::Cubic::power_basis", a::cubic_powers, "the largest coordinate", [16.0, 16.0], MANY),
     measured!("bezier::cubic::Cubic::quadratic", a::cubic_raised, "the largest coordinate", [2.0, 2.0], MANY),
     exact("bezier::cubic::Cubic::reversed", "an exchange"),

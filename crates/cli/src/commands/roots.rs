@@ -2,9 +2,8 @@
 
 use std::fmt::Write as _;
 
-use feature_sampling::polynomial::{Certified, Holds, Polynomial, Root, RootKind, RootsError};
+use feature_sampling::polynomial::{Polynomial, Root, RootKind, RootsError};
 use fsample_oracle::judge::{Interval, Judge};
-use fsample_oracle::solve::{Ask, prove};
 use lineart::export::number::Number;
 
 use crate::errors::{Failure, warn};
@@ -102,12 +101,8 @@ fn solve(coefficients: &[f64], range: Range) -> Result<Vec<Root<f64>>, RootsErro
     by_size!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
 }
 
-/// The roots with brackets that are proved: in floating point where that settles everything, which it does unless there are
-/// multiple roots or roots at an end of the interval, by counts in integers of any size elsewhere.
+/// The roots with brackets that are proved, by counts in integers of any size.
 fn certified(coefficients: &[f64], range: Range) -> Result<Vec<Root<f64>>, RootsError> {
-    if let Some(proved) = proved(coefficients, range) {
-        return Ok(proved);
-    }
     let judge = Judge::new(coefficients).ok_or(RootsError::ZeroPolynomial)?;
     let within = match range {
         Range::Unit => Interval::between(0.0, 1.0),
@@ -115,20 +110,6 @@ fn certified(coefficients: &[f64], range: Range) -> Result<Vec<Root<f64>>, Roots
         Range::Real => Some(judge.everywhere()),
     };
     Ok(judge.certified(&within.ok_or(RootsError::BadInterval)?))
-}
-
-/// The kernel's certified answer if it is simple roots and nothing else.
-fn proved(coefficients: &[f64], range: Range) -> Option<Vec<Root<f64>>> {
-    let (ask, lo, hi) = match range {
-        Range::Unit => (Ask::Unit, 0.0, 1.0),
-        Range::Between(lo, hi) => (Ask::Between(lo, hi), lo, hi),
-        Range::Real => (Ask::Real, f64::MIN, f64::MAX),
-    };
-    let is_settled = |r: &Certified<f64>| r.holds == Holds::One && lo <= r.lower && r.upper <= hi;
-    let root = |r: Certified<f64>| {
-        is_settled(&r).then_some(Root { value: r.value, lower: r.lower, upper: r.upper, kind: RootKind::Simple })
-    };
-    prove(coefficients, ask).ok()?.into_iter().map(root).collect()
 }
 
 fn solve_as<const N: usize>(coefficients: &[f64], range: Range) -> Result<Vec<Root<f64>>, RootsError> {

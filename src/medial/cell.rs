@@ -635,10 +635,12 @@ pub fn roots<S: Directed, E>(
                     }
                 }
                 JointKind::Corner => {
-                    if scene.curve.joint(end).all(|e| e >= end) {
+                    // Once a joint, at its first end; ends of repetitions may come before it and are not looked at.
+                    let is_obstacle = |e: &EndId| scene.curve.segment(e.segment()).is_some_and(|s| s.twin.is_none());
+                    if scene.curve.joint(end).filter(is_obstacle).all(|e| e >= end) {
                         each(FootSpan::Corner { end })?;
+                        cone(scene, end, &mut each)?;
                     }
-                    cone(scene, end, &mut each)?;
                 }
             }
         }

@@ -38,7 +38,10 @@ impl Required {
             required.sides.extend([(index, false), (index, true)]);
             for side in 0..2 {
                 let end = EndId::new(index, side);
-                if segment.end(side).kind != JointKind::Smooth && curve.joint(end).all(|e| e >= end) {
+                // Once a joint, at the first of its ends that is not one of a repetition.
+                let is_obstacle = |e: &EndId| curve.segment(e.segment()).is_some_and(|s| s.twin.is_none());
+                let is_first = || curve.joint(end).filter(is_obstacle).all(|e| e >= end);
+                if segment.end(side).kind != JointKind::Smooth && is_first() {
                     required.joint(scene, curve.joint(end).collect());
                 }
             }

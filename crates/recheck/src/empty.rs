@@ -292,3 +292,102 @@ pub(crate) fn reached(scene: &Scene<'_>, feet: &Feet, segment: u32, t: f64) -> f
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use feature_sampling::bezier::Cubic;
+    use feature_sampling::curve::door::DoorOptions;
+    use feature_sampling::geometry::Point;
+    use feature_sampling::model::CurveModel;
+
+    use super::*;
+
+    fn model() -> CurveModel<f64> {
+        let cubic = |p: [(f64, f64); 4]| {
+            let [a, b, c, d] = p.map(|(x, y)| Point::new(x, y));
+            Cubic::new(a, b, c, d)
+        };
+        let bent = [
+            cubic([(0.0, 0.0), (1.0, 0.5), (2.0, 0.5), (3.0, 0.0)]),
+            cubic([(3.0, 0.0), (3.2, 1.0), (3.0, 2.0), (2.0, 3.0)]),
+            cubic([(2.0, 3.0), (1.6, 3.4), (0.6, 3.4), (0.2, 2.6)]),
+        ];
+        let other = [cubic([(1.0, -1.0), (1.2, 0.0), (1.6, 1.0), (1.5, 2.0)])];
+        CurveModel::new(&[(false, bent.as_slice()), (false, other.as_slice())], &DoorOptions::default())
+            .expect("a curve")
+    }
+
+    struct Random(u64);
+
+    impl Random {
+        fn unit(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+        }
+    }
+
+    /// The largest empty disk by plain points: at least so large as the true one, a little too large between the points.
+    fn plain_radius(model: &CurveModel<f64>, foot: &Point<f64>, direction: &Vector<f64>, own: (u32, f64)) -> f64 {
+        let mut least = f64::INFINITY;
+        for (segment, index) in model.curve().segments.iter().zip(0_u32..) {
+            for i in 0..=500 {
+                let t = f64::from(i) / 500.0;
+                let to = segment.point(&t).minus(foot);
+                let ahead = to.dot(direction);
+                // Beside the foot roundings decide.
+                if ahead > 0.0 && !(index == own.0 && (t - own.1).abs() < 0.02) {
+                    least = least.min(to.norm_sq() / (2.0 * ahead));
+                }
+            }
+        }
+        least
+    }
+
+    /// Disks that a plain point lies in are never shown to be empty, upper bounds are never below plain radii, no medial
+    /// point is nearer than its cell's capsule says; and all of it says something.
+    #[test]
+    fn claims_agree_with_plain_points() {
+        let model = model();
+        let scene = Scene::new(model.curve());
+        let mut random = Random(5);
+        let mut work = Work::new();
+        let (mut shown, mut refused, mut bounded) = (0, 0, 0);
+        for round in 0..3000_u32 {
+            let segment = round % 4;
+            let from = random.unit() * 0.95;
+            let width = 0.05 * random.unit() * random.unit();
+            let left = random.unit() < 0.5;
+            let span = Span::Side { segment, left, from, to: from + width };
+            let Some(feet) = Feet::new(&scene, &span) else { continue };
+            let capsule = Capsule::new(&scene, &span);
+            let p = Point::new(4.0 * random.unit() - 0.5, 5.0 * random.unit() - 1.0);
+            let radius = 0.05 * 60.0_f64.powf(random.unit());
+            let is_empty = empty(&scene, &span, radius, &mut work);
+            let upper = reached(&scene, &feet, (segment + 1) % 4, random.unit());
+            let mut plain = f64::INFINITY;
+            for i in 0..=4 {
+                let u = from + width * f64::from(i) / 4.0;
+                let own = scene.curve.segment(segment).expect("a segment");
+                let foot = own.point(&u);
+                let tangent = own.power.derivative(&u);
+                let normal = if left { tangent.left() } else { tangent.left().opposite() };
+                let unit = normal.scaled(&(1.0 / normal.norm()));
+                let r = plain_radius(&model, &foot, &unit, (segment, u));
+                plain = plain.min(r);
+                assert!(upper > r * 0.97 || upper >= r - 1e-3, "round {round}: upper bound {upper} of {r}");
+                let rho = radius * random.unit();
+                let m = foot.plus_scaled(&rho, &unit);
+                assert!(m.distance(&p) >= capsule.distance(&p, 0.0, radius) - 1e-9, "round {round}: a medial point");
+                assert!(foot.distance(&p) >= capsule.off_feet(&p) - 1e-9, "round {round}: a foot");
+                assert!(m.distance(&p) <= capsule.farthest(&p, 0.0, radius) + 1e-9, "round {round}: farthest");
+            }
+            bounded += u32::from(upper.is_finite());
+            if radius > plain * (1.0 + 1e-9) {
+                refused += 1;
+                assert!(!is_empty, "round {round}: {span:?} has no empty disk of radius {radius}, {plain} at most");
+            }
+            shown += u32::from(is_empty);
+        }
+        assert!(shown > 400 && refused > 400 && bounded > 400, "{shown} shown, {refused} refused, {bounded} bounded");
+    }
+}

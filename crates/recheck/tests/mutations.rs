@@ -330,6 +330,86 @@ fn nothing_false_is_accepted_of_ten_thousand() {
     survey(10_000, 2);
 }
 
+/// What is claimed may be true and its certificate still be worth nothing: no part of a cover may be missing.
+#[test]
+fn what_is_left_out_is_missed() {
+    for paths in [smooth(), singular()] {
+        let made = made(&paths, 0.49);
+        let honest = proved(&made, 0.5);
+        let curve = made.model.curve();
+        let missed = |c: &Certificate, what: &str| assert!(check(curve, c).is_err(), "{what}");
+        for i in 0..honest.trees.len() {
+            let mut c = honest.clone();
+            c.trees.remove(i);
+            missed(&c, "a tree");
+            let mut c = honest.clone();
+            let (Span::Side { from, to, .. } | Span::Fan { from, to, .. }) = &mut c.trees[i].feet;
+            if i % 2 == 0 {
+                *from += 1e-3;
+            } else {
+                *to -= 1e-3;
+            }
+            missed(&c, "an end of a tree");
+        }
+        for i in (0..honest.pieces.len()).step_by(9) {
+            let mut c = honest.clone();
+            c.pieces.remove(i);
+            missed(&c, "a piece");
+            let mut c = honest.clone();
+            let p = &mut c.pieces[i];
+            p.to = p.from + 0.999 * (p.to - p.from);
+            missed(&c, "an end of a piece");
+        }
+    }
+}
+
+/// Certificates made for a false claim: the samples of ε = 0.5 as samples of 0.3, everything in order but for one thing.
+#[test]
+fn forgeries_are_rejected() {
+    for paths in [smooth(), singular()] {
+        let made = made(&paths, 0.49);
+        let mut forged = proved(&made, 0.5);
+        let curve = made.model.curve();
+        forged.epsilon = 0.3;
+        assert!(worst(&made, &forged) > 1.2, "the claim is false");
+        for p in &mut forged.pieces {
+            if let Why::Feature(lfs) = &mut p.why {
+                *lfs *= 0.5 / 0.3 * (1.0 + 1e-9);
+            }
+        }
+        assert!(check(curve, &forged).is_err(), "lfs is not that large");
+        // No cells at all.
+        let mut c = forged.clone();
+        c.trees.clear();
+        assert!(check(curve, &c).is_err(), "there are feet");
+        // Disks so large that nothing comes near: only that they are not empty is wrong.
+        for radius in [0.5, 10.0, 1e6] {
+            let mut c = forged.clone();
+            for tree in &mut c.trees {
+                tree.nodes = vec![fsample_recheck::Node { split: false, lower: radius, upper: None }];
+            }
+            assert!(check(curve, &c).is_err(), "disks of radius {radius} are not empty");
+        }
+        // The pieces that are served, and no others.
+        let mut c = forged.clone();
+        c.pieces.retain(|p| !matches!(p.why, Why::Feature(_)));
+        assert!(check(curve, &c).is_err(), "the rest of the curve is missing");
+        // Samples beside the curve.
+        let mut c = forged.clone();
+        c.epsilon = 0.5;
+        for s in &mut c.samples {
+            s.y += 1e-3;
+        }
+        assert!(check(curve, &c).is_err(), "samples are on the curve");
+        // A floor where there is none.
+        let mut c = forged.clone();
+        for p in &mut c.pieces {
+            p.why = Why::Floor;
+        }
+        assert!(check(curve, &c).is_err(), "no floor is that large");
+    }
+}
+
 /// A claim of lfs that is larger than the truth is not shown by any cells.
 #[test]
 fn a_claim_beyond_its_slack_is_rejected() {

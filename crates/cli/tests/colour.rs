@@ -82,11 +82,16 @@ fn what_cannot_be_done_is_said() {
 fn the_same_rooms_for_any_epsilon() {
     let place = Place::new();
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    for (drawing, hints) in
-        [("elephant_outline_matthe_r.svg", "elephant.csv"), ("sleeping_cat_ron_golan_01.svg", "cat.csv")]
-    {
-        let [drawing, hints] = [root.join("drawings").join(drawing), root.join("docs/pictures/hints").join(hints)]
-            .map(|path| path.to_str().expect("a path in UTF-8").to_owned());
+    for (drawing, hints) in [
+        ("elephant_outline_matthe_r", "elephant"),
+        ("sleeping_cat_ron_golan_01", "cat"),
+        ("snail", "snail"),
+        ("fish", "fish"),
+        ("deer", "deer"),
+    ] {
+        let files = [format!("drawings/{drawing}.svg"), format!("docs/pictures/hints/{hints}.csv")];
+        let [drawing, hints] =
+            files.map(|file| root.join(file)).map(|path| path.to_str().expect("a path in UTF-8").to_owned());
         let rooms = |epsilon: &str| {
             let options =
                 ["colour", &drawing, "--hints", &hints, "--epsilon", epsilon, "-o", "out.svg", "--report", "out.json"];

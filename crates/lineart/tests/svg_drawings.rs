@@ -63,6 +63,16 @@ fn drawings_that_ship() {
 }
 
 #[test]
+fn drawings_with_gaps() {
+    for (name, shape) in [("deer", (19, 0, 104)), ("fish", (13, 1, 62)), ("snail", (12, 0, 82))] {
+        let drawing = read(&workspace().join("drawings").join(name).with_extension("svg"));
+        assert_eq!(counts(&drawing), shape, "{name}");
+        assert!(drawing.warnings.is_empty(), "{name}: {:?}", drawing.warnings);
+        assert!((drawing.user_units_per_mm.unwrap() - 1.0).abs() < 1e-12, "{name}");
+    }
+}
+
+#[test]
 fn the_switch_of_the_seal_shows_its_group() {
     let drawing = read(&workspace().join("drawings/seal_sek_.svg"));
     assert_eq!(drawing.view_box, Some([0.0, 0.0, 128.636, 132.676]));

@@ -101,7 +101,7 @@ impl<'a> Plane<'a> {
         }
         let mut degrees = vec![0; places.len()];
         noded.edges.iter().flat_map(|edge| edge.ends).for_each(|v| degrees[v as usize] += 1);
-        let unit = options.unit();
+        let unit = noded.unit;
         let first = noded.vertices.first().map_or_else(Default::default, |vertex| {
             let [x, y] = vertex.place.map(|v| v as f64 * unit);
             Point::new(vertex.point.x - x, vertex.point.y - y)

@@ -78,7 +78,8 @@ impl Chain {
 /// How to node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// No point is moved farther than this, in user units. The lattice has half of it as its unit.
+    /// No point is moved farther than this, in user units. The unit of the lattice is half of it, or, where that would move
+    /// something farther, an eighth or a thirty-second.
     pub pitch: f64,
     /// Rounds of snap rounding at most.
     pub rounds: usize,
@@ -90,11 +91,6 @@ impl Options {
     /// With this pitch, 30 rounds and ten million vertices at most.
     pub fn new(pitch: f64) -> Self {
         Self { pitch, rounds: 30, limit: 10_000_000 }
-    }
-
-    /// The unit of the lattice, in user units.
-    pub fn unit(&self) -> f64 {
-        self.pitch / lattice::UNITS
     }
 
     /// The usual pitch of a drawing: a millionth of its diagonal, or a hundredth of the smallest distance of samples if
@@ -112,7 +108,7 @@ pub struct Vertex {
     /// The point of the curves that it stands for, at most a pitch away: the sample, or the crossing of two curves. Where
     /// several samples became one vertex it is the first of them.
     pub exact: Point<f64>,
-    /// The lattice point in units of half a pitch.
+    /// The lattice point in units of the lattice ([`Noded::unit`]).
     pub place: [i64; 2],
 }
 
@@ -160,6 +156,8 @@ pub struct Noded {
     /// Its edges, by their ends in order, each pair of vertices once.
     pub edges: Vec<Edge>,
     owners: Vec<Owner>,
+    /// The unit of the lattice, in user units.
+    pub unit: f64,
     /// What was done.
     pub report: Report,
 }
@@ -228,12 +226,11 @@ pub fn node(paths: &[DrawingPath], chains: &[Chain], options: &Options) -> Resul
     // The lattice starts at the corner of the drawing.
     let hulls = strands.iter().flat_map(|strand| paths.get(strand.path as usize)).flat_map(|path| &path.cubics);
     let bounds = Aabb::around(hulls.flat_map(|cubic| &cubic.points));
-    let extent = bounds.extent();
-    if !strands.is_empty() && lattice::is_too_fine(extent.x.max(extent.y), options) {
+    if !strands.is_empty() && lattice::is_too_fine(&bounds, options) {
         return Err(NodeError::TooFine);
     }
     let crossings = meet::refine(&mut strands, &bounds.min, options)?;
-    let mut noded = lattice::round(&strands, &bounds.min, options)?;
+    let mut noded = lattice::round(&strands, &bounds, options)?;
     noded.report.crossings = crossings;
     Ok(noded)
 }

@@ -144,7 +144,7 @@ fn nothing_is_an_error() {
 }
 
 /// Drawings that once took a million medial points or more: narrow cusps, strokes that coincide for a stretch, lines that
-/// run back over themselves, an end that touches its own path. What lies between two strokes needs few points.
+/// run back over themselves, an end that touches its own path, brush strokes. What lies between two strokes needs few points.
 #[test]
 fn degenerate_drawings_take_few_medial_points() {
     type Path<'a> = (bool, &'a [[[i32; 2]; 4]]);
@@ -171,19 +171,32 @@ fn degenerate_drawings_take_few_medial_points() {
             (true, &[[[6, 5], [1, 4], [0, 4], [1, 6]]]),
         ],
     ];
-    let mut room = vec![MedialPoint::<f64>::default(); 10_000];
     for (i, drawing) in drawings.iter().enumerate() {
         let point = |[x, y]: [i32; 2]| pt(f64::from(x), f64::from(y));
         let strokes: Vec<(bool, Vec<Cubic<f64>>)> =
             drawing.iter().map(|(c, v)| (*c, v.iter().map(|q| Cubic { points: q.map(point) }).collect())).collect();
-        let paths: Vec<(bool, &[Cubic<f64>])> = strokes.iter().map(|(c, v)| (*c, v.as_slice())).collect();
-        let model = CurveModel::new(&paths, &DoorOptions::default()).expect("a drawing");
-        let curve = model.curve();
-        let relevance = relevance(&curve);
-        for (path, _) in (0_u32..).zip(curve.paths) {
-            let mut out = SliceStore::new(&mut room);
-            let end = walk(&curve, path, &Resolution::Tolerance(1e-2), model.contacts(), &relevance, 0, &mut out);
-            assert!(end.is_ok(), "drawing {i}, path {path}: {end:?}");
-        }
+        takes_few_medial_points(&strokes, &format!("drawing {i}"));
+    }
+    // A brush stroke of eight lines that cross each other again and again at angles of some thousandths.
+    let line = |k: i32| {
+        let thousandth = |n: i32| f64::from(n) * 1e-3;
+        let [up, down, end] = [7 * k * k % 11, 5 * k * k % 7, 3 * k % 10].map(thousandth);
+        let cubic = Cubic::new(pt(0.0, thousandth(k)), pt(3.0, 1.0 + up), pt(7.0, 1.0 - down), pt(10.0, end));
+        (false, vec![cubic])
+    };
+    takes_few_medial_points(&(0..8).map(line).collect::<Vec<_>>(), "a brush");
+}
+
+/// At most 10 000 medial points a path, at a tolerance of a hundredth.
+fn takes_few_medial_points(strokes: &[(bool, Vec<Cubic<f64>>)], name: &str) {
+    let mut room = vec![MedialPoint::<f64>::default(); 10_000];
+    let paths: Vec<(bool, &[Cubic<f64>])> = strokes.iter().map(|(c, v)| (*c, v.as_slice())).collect();
+    let model = CurveModel::new(&paths, &DoorOptions::default()).expect("a drawing");
+    let curve = model.curve();
+    let relevance = relevance(&curve);
+    for (path, _) in (0_u32..).zip(curve.paths) {
+        let mut out = SliceStore::new(&mut room);
+        let end = walk(&curve, path, &Resolution::Tolerance(1e-2), model.contacts(), &relevance, 0, &mut out);
+        assert!(end.is_ok(), "{name}, path {path}: {end:?}");
     }
 }

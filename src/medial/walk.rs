@@ -191,8 +191,9 @@ struct Pending<S> {
     clear: bool,
 }
 
-/// Strokes that are known where something else is looked for.
-type Strokes<S> = ArrayVec<Locality<S>, 6>;
+/// Strokes that are known where something else is looked for. A brush stroke drawn as ten outlines that nearly coincide has so
+/// many beside each other; where there are more, cells are halved until they are as short as the gaps.
+type Strokes<S> = ArrayVec<Locality<S>, 16>;
 
 /// Halvings of a cell: 2^−56 of a segment is below every floor.
 const DEPTH: usize = 56;

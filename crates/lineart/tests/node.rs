@@ -28,11 +28,11 @@ fn no_vertex_is_far_from_its_curve() {
     }
 }
 
-/// Found by the survey: among copies that lie a few units of the lattice from each other a segment was led three pitches
+/// Found by the survey: among copies that lie a few units of the lattice from each other a segment was led up to five pitches
 /// astray, or was cut again and again.
 #[test]
 fn near_copies_settle_within_a_pitch() {
-    for seed in [5521, 6066, 7462, 8835, 13681, 16917, 17190, 17860, 19681] {
+    for seed in [1881, 5521, 6066, 7462, 8835, 13681, 16917, 17190, 17860, 19026, 19681] {
         let verdict = strokes::examine(3, seed);
         assert!(verdict.is_ok(), "seed {seed}: {verdict:?}");
     }

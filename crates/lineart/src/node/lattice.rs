@@ -17,8 +17,8 @@
 //! **Drift.** Each time it is led through a vertex a segment moves a little, and could wander off in many steps. So no
 //! segment is led through a near vertex that is farther than a pitch (less the rounding of a crossing) from the chord it
 //! comes from. Only proper crossings and vertices exactly on a segment have to be obeyed whatever the distance. Where many
-//! strokes lie within a few units of each other, one leads to the next: in nine of 20 000 sets of displaced copies a segment
-//! went three pitches astray, or the rounds were over. The way is as long in units on any lattice, so those
+//! strokes lie within a few units of each other, one leads to the next: in eleven of 20 000 sets of displaced copies a segment
+//! went up to five pitches astray, or the rounds were over. The way is as long in units on any lattice, so those
 //! sets are rounded again on a finer one ([`UNITS`]).
 
 use std::collections::HashMap;

@@ -16,10 +16,10 @@
 //! Proofs: `docs/certificates.md`, sections 1, 2 and 6.
 
 use crate::buffer::{BufferFull, Store};
-use crate::curve::CurveParam;
 use crate::geometry::Point;
-use crate::medial::cell::{Cell, FootSpan, UNDIVIDED, roots, slop};
+use crate::medial::cell::{Cell, FootSpan, UNDIVIDED, slop};
 use crate::medial::clear::Scene;
+use crate::medial::foot_set::roots;
 use crate::scalar::Directed;
 
 /// Two-sided bounds of lfs.
@@ -62,9 +62,20 @@ impl<'a, S: Directed, B: Store<Cell<S>>> Band<'a, S, B> {
     pub fn new(scene: Scene<'a, S>, mut cells: B, limit: usize) -> Result<Self, BufferFull> {
         cells.shorten(0);
         roots(&scene, |feet| cells.push(Cell::new(&scene, feet)))?;
-        let (arcs, roots) = (2 * scene.curve.arcs.len(), cells.items().len());
+        Ok(Self::resumed(scene, cells, limit))
+    }
+
+    /// A forest whose cells another band of the same scene left ([`Band::into_cells`]), with all that they know.
+    pub fn resumed(scene: Scene<'a, S>, cells: B, limit: usize) -> Self {
+        let mut roots = 0;
+        // Where there are cells they start with all roots, and counting these cannot fail.
+        let _: Result<(), BufferFull> = crate::medial::foot_set::roots(&scene, |_| {
+            roots += 1;
+            Ok(())
+        });
+        let (arcs, roots) = (2 * scene.curve.arcs.len(), roots.min(cells.items().len()));
         let slop = slop(&scene);
-        Ok(Self { scene, cells, arcs, roots, limit, slop })
+        Self { scene, cells, arcs, roots, limit, slop }
     }
 
     /// What the band is about.
@@ -77,9 +88,21 @@ impl<'a, S: Directed, B: Store<Cell<S>>> Band<'a, S, B> {
         self.cells.items()
     }
 
+    /// Changes what is known of a cell.
+    pub(super) fn with_cell(&mut self, index: u32, change: impl FnOnce(&Scene<'a, S>, &mut Cell<S>)) {
+        if let Some(cell) = self.cells.items_mut().get_mut(index as usize) {
+            change(&self.scene, cell);
+        }
+    }
+
     /// How many cells were made so far.
     pub fn len(&self) -> usize {
         self.cells.items().len()
+    }
+
+    /// No more cells can be made.
+    pub fn is_full(&self) -> bool {
+        self.len() + 2 > self.limit
     }
 
     /// How many of the cells are roots; they come first.
@@ -172,43 +195,6 @@ impl<'a, S: Directed, B: Store<Cell<S>>> Band<'a, S, B> {
     /// The cell has halves already.
     pub fn divided(&self, index: u32) -> bool {
         self.cells.items().get(index as usize).is_some_and(|c| c.children != UNDIVIDED)
-    }
-
-    /// At least lfs at a place on C, from the medial points that stand there, as far as they are nearer than `limit`.
-    ///
-    /// p is the point at that place, to within the [slop](Self::slop).
-    pub fn upper_at(&mut self, at: &CurveParam<S>, p: &Point<S>, limit: &S) -> S {
-        let mut best = S::infinity();
-        let Some(segment) = self.scene.curve.segment(at.segment) else { return best };
-        let (index, t) = match segment.twin {
-            Some(twin) if twin.reversed => (twin.segment, S::one() - &at.t),
-            Some(twin) => (twin.segment, at.t.clone()),
-            None => (at.segment, at.t.clone()),
-        };
-        let Some((first, count)) = self.scene.curve.segment(index).map(|s| s.arcs) else { return best };
-        let arcs = self.scene.curve.arcs.get(first as usize..(first + count) as usize).unwrap_or_default();
-        let arc = first + u32::try_from(arcs.partition_point(|a| a.span[1] < t)).unwrap_or(0).min(count.max(1) - 1);
-        for side in 0..2 {
-            let mut cell = 2 * arc + side;
-            // Down to cells of a few thousandths of the limit.
-            for _ in 0..48 {
-                let Some(c) = self.cells.items_mut().get_mut(cell as usize) else { break };
-                if c.half <= limit.clone().half() {
-                    c.enclose(&self.scene, limit);
-                    best = best.min(c.farthest(p));
-                    if best < *limit || c.half <= limit.clone().mul_pow2(-8) || c.lower >= *limit {
-                        break;
-                    }
-                }
-                let Some([a, b]) = self.divide(cell) else { break };
-                let before = self.cells.items().get(a as usize).is_some_and(|c| match &c.feet {
-                    FootSpan::Normal { span, .. } => t <= span[1],
-                    _ => true,
-                });
-                cell = if before { a } else { b };
-            }
-        }
-        best
     }
 
     /// The two halves of a cell, made where they do not exist yet; `None` where it cannot be divided or the limit is reached.

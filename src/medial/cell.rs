@@ -10,17 +10,16 @@
 //! with fₘ and nₘ two plain numbers near the foot and direction in the middle, h half the length of the stretch, k the curvature
 //! towards d, α the turning, e₀ and e₁ what fₘ and nₘ are off. (f + ρd moves by (1−kρ) times what f moves.) With an
 //! enclosure [lower, upper] of the radii r(f, d), all medial points of the cell lie within H of a straight segment: a
-//! *capsule*. `lower` comes from an emptiness proof over all of C ([`Cell::enclose`]), `upper` from single points of C.
+//! *capsule*. `lower` comes from an emptiness proof over all of C, `upper` from single points of C (`medial::radii`).
 //! Proofs: `docs/certificates.md`, sections 2 to 5.
 
-use super::clear::{FanFeet, Feet, Scene, Stretch, clears, curvature, osculates, reaches};
-use super::disk::tangent_disk;
-use super::foot::{Foot, Side};
+use super::clear::{FanFeet, Feet, MeanFoot, Scene, curvature};
+use super::foot::Side;
+use super::foot_set::singular;
 use crate::curve::ideal::{Enclosed, Outgoing};
-use crate::curve::{CurveParam, EndId, JointKind};
+use crate::curve::{CurveParam, EndId};
 use crate::geometry::{Point, Vector, distance_sq_to_segment};
 use crate::scalar::{Directed, Enclosure as Interval, Field};
-use arrayvec::ArrayVec;
 
 /// Which feet a cell covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +84,15 @@ pub struct Cell<S> {
     pub children: u32,
 }
 
+/// A part of a band around the medial axis: all points within `spread` of a straight segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Capsule<S> {
+    /// Where the segment starts and ends.
+    pub axis: [Point<S>; 2],
+    /// The radius.
+    pub spread: S,
+}
+
 /// No halves yet.
 pub const UNDIVIDED: u32 = u32::MAX;
 
@@ -121,12 +129,12 @@ fn stretch<S: Directed>(o: &Outgoing<S>, v0: &Interval<S>, v1: &Interval<S>) -> 
 }
 
 /// The direction in which a branch leaves its end, not normalised.
-fn leaving<S: Directed>(o: &Outgoing<S>) -> &Enclosed<S> {
+pub(super) fn leaving<S: Directed>(o: &Outgoing<S>) -> &Enclosed<S> {
     let [c1, c2, _] = &o.c;
     if o.retracted { c2 } else { c1 }
 }
 
-fn unit<S: Directed>(v: &Enclosed<S>) -> Enclosed<S> {
+pub(super) fn unit<S: Directed>(v: &Enclosed<S>) -> Enclosed<S> {
     let n = v.norm();
     Vector::new(v.x.clone() / &n, v.y.clone() / &n)
 }
@@ -159,6 +167,18 @@ impl<S: Directed> FootSpan<S> {
                 let point = stretch(o, &v0, &v1)?;
                 let left = (*side == Side::Left) == (near == 0);
                 let normal = tangent.left();
+                let turned = |v: &Enclosed<S>| if left { v.left() } else { v.left().opposite() };
+                let middle = Interval::point(u.middle());
+                let mean = MeanFoot {
+                    point: o.point(&middle),
+                    direction: turned(&o.tangent(&middle)),
+                    change: turned(&if o.retracted {
+                        three_c3
+                    } else {
+                        two_c2.plus_scaled(&u, &c3.scaled(&Interval::int(6)))
+                    }),
+                    offset: u - &middle,
+                };
                 Some(Feet {
                     segment: *segment,
                     from: Some([from, back]),
@@ -168,6 +188,7 @@ impl<S: Directed> FootSpan<S> {
                     direction: if left { normal } else { normal.opposite() },
                     length,
                     fan: None,
+                    mean: Some(mean),
                 })
             }
             Self::Fan { end, other, left, span: [a, b] } => {
@@ -197,7 +218,8 @@ impl<S: Directed> FootSpan<S> {
                     point: own.end.clone(),
                     direction,
                     length,
-                    fan: Some(FanFeet { branch: *end, first, second }),
+                    fan: Some(FanFeet { branch: *end, first, second, share: lambda }),
+                    mean: None,
                 })
             }
             Self::Corner { .. } => None,
@@ -235,17 +257,6 @@ impl<S: Directed> FootSpan<S> {
             Self::Corner { end } => Self::Corner { end: *end },
         }
     }
-}
-
-/// Whether it is certain that a joint, or an end, belongs to M: two of its branches are not opposite to each other, or one of
-/// them has curvature without bound.
-pub fn singular<S: Directed>(scene: &Scene<'_, S>, end: EndId) -> bool {
-    let directions = |e: EndId| scene.outgoing(e).map(|o| unit(leaving(o)));
-    let bent = |e: EndId| scene.outgoing(e).is_some_and(|o| o.retracted && !o.c[1].cross(&o.c[2]).contains(&S::zero()));
-    let Some(first) = directions(end) else { return false };
-    let kinked = |e: EndId| directions(e).is_some_and(|d| *first.plus(&d).norm_sq().lo() > S::unit_roundoff());
-    let joined = scene.curve.end(end).is_some_and(|e| e.kind == JointKind::Corner);
-    scene.curve.joint(end).any(|e| bent(e) || (joined && e != end && kinked(e)))
 }
 
 impl<S: Directed> Cell<S> {
@@ -340,7 +351,7 @@ impl<S: Directed> Cell<S> {
 
     /// The end of the axis at ρ.
     #[inline]
-    fn axis(&self, rho: &S) -> Point<S> {
+    pub(super) fn axis(&self, rho: &S) -> Point<S> {
         self.centre.plus_scaled(rho, &self.normal)
     }
 
@@ -362,6 +373,12 @@ impl<S: Directed> Cell<S> {
         a.max(b) + &self.spread(&self.lower, &self.upper)
     }
 
+    /// All of its medial points with a radius below `limit` lie within this; the rounding of plain numbers is not allowed for.
+    pub fn capsule(&self, limit: &S) -> Capsule<S> {
+        let far = self.upper.clone().min(limit.clone()).max(self.lower.clone());
+        Capsule { axis: [self.axis(&self.lower), self.axis(&far)], spread: self.spread(&self.lower, &far) }
+    }
+
     /// Its two halves, which know what it knows.
     pub fn halves(&self, scene: &Scene<'_, S>) -> Option<[Self; 2]> {
         let [a, b] = self.feet.halves()?;
@@ -376,301 +393,4 @@ impl<S: Directed> Cell<S> {
         let [g0, g1, g2] = &self.guess;
         Some([half(a, [g0, g1]), half(b, [g1, g2])])
     }
-
-    /// The plain foot in the middle (0 for the first, 2 for the last).
-    fn plain_foot(&self, scene: &Scene<'_, S>, which: usize) -> Option<Foot<S>> {
-        let pick = |[a, b]: &[S; 2]| match which {
-            0 => a.clone(),
-            2 => b.clone(),
-            _ => S::midpoint(a, b),
-        };
-        match &self.feet {
-            FootSpan::Normal { segment, span, side } => {
-                Foot::normal(scene.curve, CurveParam { segment: *segment, t: pick(span) }, *side)
-            }
-            FootSpan::Fan { end, .. } => {
-                let mut feet = self.feet.clone();
-                if let FootSpan::Fan { span, .. } = &mut feet {
-                    let l = pick(span);
-                    *span = [l.clone(), l];
-                }
-                let d = feet.feet(scene)?.direction;
-                Foot::fan(scene.curve, *end, Vector::new(d.x.middle(), d.y.middle()).unit()?)
-            }
-            FootSpan::Corner { .. } => None,
-        }
-    }
-
-    /// Encloses the radii, as far as they are below `limit`.
-    ///
-    /// The lower bound starts from disks found without proof and falls until nothing of C is left that is not proved to be
-    /// outside; the upper bound is the best of those that the points give which bounded these disks.
-    pub fn enclose(&mut self, scene: &Scene<'_, S>, limit: &S) {
-        if self.asked >= *limit {
-            return;
-        }
-        self.asked = limit.clone();
-        let Some(feet) = self.feet.feet(scene) else { return };
-        let mut witnesses: ArrayVec<CurveParam<S>, WITNESSES> = ArrayVec::new();
-        for which in 0..3 {
-            if self.guess[which] >= S::zero() && which != 1 {
-                continue;
-            }
-            let Some(foot) = self.plain_foot(scene, which) else { continue };
-            let disk = tangent_disk(scene.curve, &foot);
-            self.guess[which] = disk.radius.clone();
-            let Some(touch) = disk.touch else { continue };
-            if disk.radius <= self.half.clone() + &slop(scene) {
-                self.beside(scene, &foot, &touch.at, &mut witnesses);
-            }
-            if witnesses.try_push(touch.at).is_err() {
-                break;
-            }
-        }
-        for at in witnesses {
-            let upper = reaches(scene, &feet, at.segment, &at.t);
-            if upper < self.upper {
-                self.upper = upper;
-                self.witness = Some(at);
-            }
-        }
-        let osculating = osculates(scene, &feet);
-        if osculating < self.upper {
-            self.upper = osculating;
-            self.witness = None;
-        }
-        let [g0, g1, g2] = self.guess.clone();
-        let least = g0.min(g1).min(g2);
-        // Asked again for a little more, it would start again: so it looks a little farther.
-        let limit = limit.clone() * &S::ratio(3, 2);
-        let capped = limit < least;
-        self.asked = if capped { limit.clone() } else { S::infinity() };
-        let least = least.min(limit);
-        let start = least.clone() * &(S::one() - &self.first_fall(&least));
-        if start <= self.lower {
-            return;
-        }
-        let lower = self.empty(scene, &feet, start.clone());
-        if lower < start {
-            self.asked = S::infinity();
-        }
-        if lower > self.lower {
-            self.lower = lower;
-        }
-    }
-
-    /// Witnesses where another stroke comes as near as the cell is long, or touches it. The nearest point of that stroke lies ahead of
-    /// some feet and behind others and says nothing of the whole cell; points of it that are a few lengths of the cell farther on do,
-    /// and what bounds the stroke's own disk there.
-    fn beside(
-        &self,
-        scene: &Scene<'_, S>,
-        foot: &Foot<S>,
-        at: &CurveParam<S>,
-        out: &mut ArrayVec<CurveParam<S>, WITNESSES>,
-    ) {
-        let Some(speed) = scene.curve.segment(at.segment).map(|s| s.power.derivative(&at.t).norm()) else { return };
-        // A fan has no length: then every scale from roundings upwards.
-        let (start, growth, steps) =
-            if self.half > S::zero() { (self.half.clone().twice(), 1, 8) } else { (slop(scene).mul_pow2(4), 3, 12) };
-        let mut offset = start / &speed;
-        for _ in 0..steps {
-            for side in 0..2 {
-                let left = if side == 0 { at.t.clone() } else { S::one() - &at.t };
-                // From that end: on this segment, or across the joint.
-                if left >= offset {
-                    let _ = out.try_push(seen_from(EndId::new(at.segment, side), left - &offset));
-                } else if offset <= S::one() {
-                    for other in scene.curve.joint(EndId::new(at.segment, side)).skip(1) {
-                        let _ = out.try_push(seen_from(other, offset.clone() - &left));
-                    }
-                }
-            }
-            offset = offset.mul_pow2(growth);
-        }
-        let Some(normal) = scene.curve.segment(at.segment).map(|s| s.tangent(&at.t).left()) else { return };
-        let side = if normal.dot(&foot.direction) > S::zero() { Side::Left } else { Side::Right };
-        let own = Foot::normal(scene.curve, at.clone(), side);
-        if let Some(touch) = own.and_then(|f| tangent_disk(scene.curve, &f).touch) {
-            let _ = out.try_push(touch.at);
-        }
-    }
-
-    /// By which share a radius is lowered first: about what it varies by along the cell, and less than 2^−9.
-    fn first_fall(&self, radius: &S) -> S {
-        let share = if *radius > S::zero() { self.half.clone() / radius + &self.turn } else { S::one() };
-        share.mul_pow2(-2).clamp(S::unit_roundoff().mul_pow2(12), S::one().mul_pow2(-9))
-    }
-
-    /// The largest radius found, at most `start`, for which the disks at all feet are proved empty.
-    fn empty(&self, scene: &Scene<'_, S>, feet: &Feet<S>, start: S) -> S {
-        let mut proof = Emptiness {
-            cell: self,
-            scene,
-            feet,
-            radius: start,
-            centre: self.centre.clone(),
-            reach_sq: S::zero(),
-            tries: TRIES,
-        };
-        proof.renew();
-        let towards = proof.centre.clone();
-        scene.curve.hierarchy().traverse(
-            &towards,
-            &mut proof,
-            |p, bounds| p.radius > p.cell.lower && bounds.distance_sq(&p.centre) <= p.reach_sq,
-            |p, arc, _| p.arc(arc),
-        );
-        proof.radius
-    }
-}
-
-/// The place at a parameter that is counted from an end.
-fn seen_from<S: Directed>(end: EndId, u: S) -> CurveParam<S> {
-    CurveParam { segment: end.segment(), t: if end.side() == 0 { u } else { S::one() - &u } }
-}
-
-/// Points of C that are tried as upper bounds: three touchings, and what is beside them.
-const WITNESSES: usize = 80;
-
-/// Pieces that one emptiness proof looks at, at most. Cells that succeed take 20 to 60 on the drawings at hand.
-const TRIES: u32 = 400;
-
-/// State of an emptiness proof.
-struct Emptiness<'p, 's, S> {
-    cell: &'p Cell<S>,
-    scene: &'p Scene<'s, S>,
-    feet: &'p Feet<S>,
-    /// The radius that is to be proved.
-    radius: S,
-    /// All disks lie within a disk around this point,
-    centre: Point<S>,
-    /// of this radius, squared.
-    reach_sq: S,
-    /// So many pieces may still be looked at.
-    tries: u32,
-}
-
-impl<S: Directed> Emptiness<'_, '_, S> {
-    /// The disk around all disks, for the current radius.
-    fn renew(&mut self) {
-        self.centre = self.cell.axis(&self.radius);
-        let reach = self.cell.spread(&self.radius, &self.radius) + &self.radius + &slop(self.scene);
-        let reach = reach * &(S::one() + &S::unit_roundoff().mul_pow2(5));
-        self.reach_sq = reach.square();
-    }
-
-    /// Lowers the radius until the arc is proved to be outside.
-    fn arc(&mut self, index: u32) {
-        let Some(arc) = self.scene.curve.arcs.get(index as usize) else { return };
-        let Some(segment) = self.scene.curve.segment(arc.segment) else { return };
-        let mut pending: ArrayVec<[S; 2], 48> = ArrayVec::new();
-        pending.push(arc.span.clone());
-        while let Some(span) = pending.pop() {
-            // A cell that takes more than this is too large, or touches C: its parent's bound stands.
-            self.tries = self.tries.saturating_sub(1);
-            if self.tries == 0 {
-                self.radius = self.cell.lower.clone();
-                self.renew();
-                return;
-            }
-            let piece = Stretch { segment: arc.segment, span };
-            if clears(self.scene, self.feet, &piece, &self.radius) {
-                continue;
-            }
-            let [a, b] = &piece.span;
-            let m = S::midpoint(a, b);
-            // Shorter than the cell, or than what its directions move the disk by, a piece has nothing to gain.
-            let least = self.cell.half.clone().twice().max(self.cell.turn.clone() * &self.radius.clone().half());
-            let least = least.max(self.radius.clone().mul_pow2(-12));
-            let long = segment.point(a).distance(&segment.point(b)) > least;
-            if long && m > *a && m < *b && pending.remaining_capacity() >= 2 {
-                pending.push([m.clone(), b.clone()]);
-                pending.push([a.clone(), m]);
-                continue;
-            }
-            // Fall faster and faster; what is left at the end is nothing.
-            let mut fall = self.cell.first_fall(&self.radius);
-            loop {
-                self.radius = self.radius.clone() * &(S::one() - &fall);
-                fall = fall.twice();
-                if self.radius <= self.cell.lower || fall >= S::one() {
-                    self.radius = self.cell.lower.clone();
-                    self.renew();
-                    return;
-                }
-                if clears(self.scene, self.feet, &piece, &self.radius) {
-                    break;
-                }
-            }
-            self.renew();
-        }
-    }
-}
-
-/// Calls `each` with every cell that a subdivision of the foot set starts from, in a fixed order: one for each side of each
-/// arc, then those at joints.
-pub fn roots<S: Directed, E>(
-    scene: &Scene<'_, S>,
-    mut each: impl FnMut(FootSpan<S>) -> Result<(), E>,
-) -> Result<(), E> {
-    for arc in scene.curve.arcs {
-        for side in [Side::Left, Side::Right] {
-            each(FootSpan::Normal { segment: arc.segment, span: arc.span.clone(), side })?;
-        }
-    }
-    let whole = || [S::zero(), S::one()];
-    for (segment, index) in scene.curve.segments.iter().zip(0_u32..) {
-        if segment.twin.is_some() {
-            continue;
-        }
-        for side in 0..2 {
-            let end = EndId::new(index, side);
-            let Some(here) = scene.curve.end(end) else { continue };
-            match here.kind {
-                JointKind::Smooth => {}
-                JointKind::Open => {
-                    for left in [true, false] {
-                        each(FootSpan::Fan { end, other: end, left, span: whole() })?;
-                    }
-                }
-                JointKind::Corner => {
-                    // Once a joint, at its first end; ends of repetitions may come before it and are not looked at.
-                    let is_obstacle = |e: &EndId| scene.curve.segment(e.segment()).is_some_and(|s| s.twin.is_none());
-                    if scene.curve.joint(end).filter(is_obstacle).all(|e| e >= end) {
-                        each(FootSpan::Corner { end })?;
-                        cone(scene, end, &mut each)?;
-                    }
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The fans of a joint of several branches: those directions that point away from all of them form a cone between the right
-/// normal of one and the left normal of another, such that no branch lies certainly to the right of the first or to the left of
-/// the second. Roundings can leave several such pairs, then all are taken; if they leave none, there is no cone.
-fn cone<S: Directed, E>(
-    scene: &Scene<'_, S>,
-    joint: EndId,
-    each: &mut impl FnMut(FootSpan<S>) -> Result<(), E>,
-) -> Result<(), E> {
-    let direction = |e: EndId| scene.outgoing(e).map(|o| unit(leaving(o)));
-    let extreme = |end: EndId, right: bool| {
-        direction(end).is_some_and(|u| {
-            scene.curve.joint(joint).filter(|e| *e != end).filter_map(direction).all(|v| {
-                let cross = u.cross(&v);
-                if right { *cross.hi() >= S::zero() } else { *cross.lo() <= S::zero() }
-            })
-        })
-    };
-    for end in scene.curve.joint(joint).filter(|&e| extreme(e, true)) {
-        for other in scene.curve.joint(joint).filter(|&e| e != end && extreme(e, false)) {
-            let whole = || [S::zero(), S::one()];
-            each(FootSpan::Fan { end, other, left: false, span: whole() })?;
-            each(FootSpan::Fan { end: other, other: end, left: true, span: whole() })?;
-        }
-    }
-    Ok(())
 }

@@ -15,11 +15,11 @@
 //!
 //! * **same segment**: q−f = (v−u)D, D = c₁+c₂(u+v)+c₃(u²+uv+v²), and T×(q−f) = (v−u)²E with E = k₁₂+k₁₃(2u+v)+k₂₃(u²+2uv).
 //!   G/(v−u)² has degree 4. Where the handle is retracted (c₁ = 0) T/u takes the place of T, and E = k₂₃(2v+u);
-//! * **across a joint**: q−f = vD_Q − uD_F, and T×(q−f) = u²(k₁₂+2k₁₃u+k₂₃u²) + uv M×D_Q + v² c₁×(b₂+vb₃) + v c₁×b₁ with M =
+//! * **across a joint**, or any two ends at one point: q−f = vD_Q − uD_F, and T×(q−f) = u²(k₁₂+2k₁₃u+k₂₃u²) + uv M×D_Q + v² c₁×(b₂+vb₃) + v c₁×b₁ with M =
 //!   2c₂+3c₃u. The last term vanishes at a smooth joint. What is left is a quadratic form a u² + b uv + c v² whose
 //!   coefficients are bounded separately: scale-free at the joint;
-//! * **at a fan**: f is the joint itself, one factor v is divided out, a second one where d is nearly normal to the branch;
-//! * **anything else**: plain differences, degree 6.
+//! * **at a fan**: f is the joint itself, one factor v is divided out;
+//! * **anything else**: plain differences, degree 6, d·(q−f) by its mean value over the stretch of feet.
 //!
 //! The same forms evaluated at a single q bound radii from above ([`reaches`]): a disk that contains q is not empty.
 //! Proofs: `docs/certificates.md`, sections 3 and 4.
@@ -48,6 +48,34 @@ pub struct Feet<S> {
     pub length: Interval<S>,
     /// For a fan: d = (1−λ)e₁ + λe₂, e₁ exactly normal to the branch of this end.
     pub fan: Option<FanFeet<S>>,
+    /// For a stretch: its middle, and how directions change.
+    pub mean: Option<MeanFoot<S>>,
+}
+
+/// How d·(q−f) changes along a stretch of feet, for a fixed q. With d' = ±left(T') its derivative is d'·(q−f) − d·F' = d'·(q−f),
+/// since d is normal to F'. So d·(q−f) = dₘ·(q−fₘ) + (u−uₘ) d'(ξ)·(q−F(ξ)) with some ξ of the stretch: of first order in the length of
+/// the stretch *and* in the distance of q, where the product of enclosures is off by the length alone.
+#[derive(Clone, Debug)]
+pub struct MeanFoot<S> {
+    /// fₘ.
+    pub point: Enclosed<S>,
+    /// dₘ.
+    pub direction: Enclosed<S>,
+    /// d', over all of the stretch.
+    pub change: Enclosed<S>,
+    /// u − uₘ.
+    pub offset: Interval<S>,
+}
+
+impl<S: Directed> Feet<S> {
+    /// Encloses d·(q−f) for all feet, q being this point, and q−f this difference.
+    fn ahead(&self, q: &Enclosed<S>, difference: &Enclosed<S>) -> Interval<S> {
+        let plain = self.direction.dot(difference);
+        let Some(mean) = &self.mean else { return plain };
+        let other = mean.direction.dot(&q.minus(&mean.point)) + &(mean.offset.clone() * &mean.change.dot(difference));
+        // Both hold.
+        Interval::new(plain.lo().clone().max(other.lo().clone()), plain.hi().clone().min(other.hi().clone()))
+    }
 }
 
 /// Directions of a fan.
@@ -59,6 +87,8 @@ pub struct FanFeet<S> {
     pub first: Enclosed<S>,
     /// e₂.
     pub second: Enclosed<S>,
+    /// λ.
+    pub share: Interval<S>,
 }
 
 /// A piece of a segment: parameters between 0 and 1 from its start.
@@ -84,6 +114,19 @@ impl<S: Directed> Scene<'_, S> {
     #[inline]
     pub fn outgoing(&self, end: EndId) -> Option<&Outgoing<S>> {
         self.ideal.get(end.segment() as usize).map(|s| s.from(end.side()))
+    }
+
+    /// The ends of a segment, other than this one, that lie at its point to the bit, whether the door joined them or not: the end of a
+    /// stroke may lie at a joint of another one.
+    fn meeting(&self, near: EndId, segment: u32) -> impl Iterator<Item = EndId> {
+        let point = self.curve.end_point(near);
+        let ends = [0, 1].map(|side| EndId::new(segment, side));
+        ends.into_iter().filter(move |end| *end != near && self.curve.end_point(*end) == point)
+    }
+
+    /// Two ends that meet are those of one smooth joint: their tangents are opposite for good.
+    fn smooth(&self, near: EndId, other: EndId) -> bool {
+        self.curve.end(near).is_some_and(|e| e.kind == JointKind::Smooth) && self.curve.joint(near).any(|e| e == other)
     }
 }
 
@@ -117,14 +160,11 @@ pub fn clears<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, piece: &Stretch
             if same && own(scene, feet, from, piece, &k) {
                 return true;
             }
-            let regular = |side: usize| scene.outgoing(EndId::new(feet.segment, side)).is_some_and(|o| !o.retracted);
             for side in [feet.side, 1 - feet.side] {
                 let near = EndId::new(feet.segment, side);
-                for other in scene.curve.joint(near).skip(1) {
-                    let usable = other.segment() == piece.segment && regular(0) && regular(1);
-                    if usable && across(scene, feet, near, other, from, piece, radius) {
-                        return true;
-                    }
+                if scene.meeting(near, piece.segment).any(|other| across(scene, feet, near, other, from, piece, radius))
+                {
+                    return true;
                 }
             }
             // The divided form is as good as plain differences everywhere.
@@ -134,10 +174,9 @@ pub fn clears<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, piece: &Stretch
         }
         None => {
             let at = EndId::new(feet.segment, feet.side);
-            for end in scene.curve.joint(at) {
-                if end.segment() == piece.segment && at_fan(scene, feet, end, piece, &k) {
-                    return true;
-                }
+            let own = Some(at).filter(|at| at.segment() == piece.segment);
+            if own.into_iter().chain(scene.meeting(at, piece.segment)).any(|end| at_fan(scene, feet, end, piece, &k)) {
+                return true;
             }
         }
     }
@@ -163,7 +202,7 @@ fn own<S: Directed>(
         }
     }
     let (delta, a) = own_terms(o, u, feet.left);
-    quartic(&delta, &a, k, &v0, &v1) >= S::zero()
+    least(quartic(&delta, &a, k, &v0, &v1)) >= S::zero()
 }
 
 /// D as a quadratic in v, and E as a linear function of v with the sign of the direction.
@@ -193,7 +232,6 @@ fn across<S: Directed>(
     radius: &S,
 ) -> bool {
     let (Some(f), Some(q)) = (scene.outgoing(near), scene.outgoing(other)) else { return false };
-    let Some(kind) = scene.curve.end(near).map(|e| e.kind) else { return false };
     let u = if near.side() == 0 { &from[0] } else { &from[1] };
     let left = feet.left == (near.side() == feet.side);
     let speed = f.derivative(u).norm();
@@ -208,7 +246,7 @@ fn across<S: Directed>(
     let d_f = c1.plus_scaled(u, &c2.plus_scaled(u, c3));
     let m = c2.scaled(&Interval::int(2)).plus_scaled(u, &c3.scaled(&Interval::int(3)));
     // At a corner the term of first order may be left out where it takes q away from the disk.
-    if kind != JointKind::Smooth {
+    if !scene.smooth(near, other) {
         let first = c1.cross(b1) * &k;
         if *first.hi() > S::zero() {
             return false;
@@ -219,9 +257,9 @@ fn across<S: Directed>(
     let a = d_f.norm_sq() - &(bend * &k);
     // −2 D_F·b − k M×b for each of b₁, b₂, b₃: the coefficients of the mixed term.
     let mixed = [b1, b2, b3].map(|b| -(d_f.dot(b).twice() + &(m.cross(b) * &k)));
-    let b = quadratic(&mixed, &v0, &v1);
+    let b = least(quadratic(&mixed, &v0, &v1));
     let turned = [c1.cross(b2), c1.cross(b3)];
-    let c = quartic(&[b1.clone(), b2.clone(), b3.clone()], &turned, &k, &v0, &v1);
+    let c = least(quartic(&[b1.clone(), b2.clone(), b3.clone()], &turned, &k, &v0, &v1));
     non_negative(a.lo(), &b, &c, [u.lo(), u.hi()], [v0.lo(), v1.hi()])
 }
 
@@ -232,27 +270,59 @@ fn at_fan<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, end: EndId, piece: 
     let [b1, b2, b3] = &q.c;
     // A retracted handle leaves one more factor v out.
     let terms = if q.retracted { [b2.clone(), b3.clone(), Enclosed::zero()] } else { [b1, b2, b3].map(Clone::clone) };
-    let away = |d: &Enclosed<S>| quadratic(&terms.clone().map(|b| -d.dot(&b)), &v0, &v1) >= S::zero();
+    let away = |d: &Enclosed<S>| least(quadratic(&terms.clone().map(|b| -d.dot(&b)), &v0, &v1)) >= S::zero();
     if away(&feet.direction) {
         return true;
     }
-    if fan.branch != end || !away(&fan.second) {
+    if fan.branch != end {
         return false;
     }
     if q.retracted {
         // e₁ is normal to b₂; what is left of its part is v e₁·b₃.
-        return *fan.first.dot(b3).hi() <= S::zero();
+        return away(&fan.second) && *fan.first.dot(b3).hi() <= S::zero();
     }
+    // G/v = v(|D|² − K(1−λ)e₁·(b₂+vb₃)) − Kλ e₂·D: where the branch bends into the disk, what e₂ takes it away by is of lower order.
     let a = [fan.first.dot(b2), fan.first.dot(b3)];
-    quartic(&[b1.clone(), b2.clone(), b3.clone()], &a, k, &v0, &v1) >= S::zero()
+    let bent = quartic(&terms, &a, k, &v0, &v1);
+    if away(&fan.second) && least(bent.clone()) >= S::zero() {
+        return true;
+    }
+    let [q0, q1, q2, q3, q4] = bent;
+    let share = fan.share.clone() * k;
+    let [l0, l1, l2] = quadratic(&terms.map(|b| -(fan.second.dot(&b) * &share)), &v0, &v1);
+    let n = Interval::int;
+    let part = |share: Interval<S>, above: Interval<S>, below: Interval<S>, of: i32| (share + &above + &below) / &n(of);
+    let coefficients = [
+        v0.clone() * &q0 + &l0,
+        part(v0.clone() * &q1 * &n(4) + &(v1.clone() * &q0), l0.clone() * &n(3), l1.clone().twice(), 5),
+        part(
+            (v0.clone() * &q2 * &n(3) + &(v1.clone() * &q1).twice()).twice(),
+            l0.clone() * &n(3) + &(l1.clone() * &n(6)),
+            l2.clone(),
+            10,
+        ),
+        part(
+            (v0.clone() * &q3).twice().twice() + &(v1.clone() * &q2 * &n(6)),
+            l0 + &(l1.clone() * &n(6)),
+            l2.clone() * &n(3),
+            10,
+        ),
+        part(v0.clone() * &q4 + &(v1.clone() * &q3 * &n(4)), l1.twice(), l2.clone() * &n(3), 5),
+        v1 * &q4 + &l2,
+    ];
+    least(coefficients) >= S::zero()
 }
 
 /// Plain differences.
 fn plain<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, piece: &Stretch<S>, k: &Interval<S>) -> bool {
     let Some(q) = scene.outgoing(EndId::new(piece.segment, 0)) else { return false };
     let [v0, v1] = piece.seen_from(0);
-    let d = control_points(q, &v0, &v1).map(|p| p.minus(&feet.point));
-    sextic(&d, &feet.direction, k) >= S::zero()
+    let points = control_points(q, &v0, &v1);
+    let d = points.clone().map(|p| p.minus(&feet.point));
+    let [p0, p1, p2, p3] = &points;
+    let [d0, d1, d2, d3] = &d;
+    let ahead = [feet.ahead(p0, d0), feet.ahead(p1, d1), feet.ahead(p2, d2), feet.ahead(p3, d3)];
+    sextic(&d, ahead.map(|a| a * k)) >= S::zero()
 }
 
 /// Bernstein control points of a piece.
@@ -272,23 +342,27 @@ fn control_points<S: Directed>(q: &Outgoing<S>, v0: &Interval<S>, v1: &Interval<
     ]
 }
 
-/// Smallest Bernstein coefficient (lower bound) of p₀ + p₁v + p₂v² on [v0, v1].
-fn quadratic<S: Directed>(p: &[Interval<S>; 3], v0: &Interval<S>, v1: &Interval<S>) -> S {
+/// The smallest lower bound.
+fn least<S: Directed, const N: usize>(coefficients: [Interval<S>; N]) -> S {
+    coefficients.into_iter().map(|g| g.lo().clone()).fold(S::infinity(), S::min)
+}
+
+/// Bernstein coefficients of p₀ + p₁v + p₂v² on [v0, v1].
+fn quadratic<S: Directed>(p: &[Interval<S>; 3], v0: &Interval<S>, v1: &Interval<S>) -> [Interval<S>; 3] {
     let [p0, p1, p2] = p;
     let at = |v: &Interval<S>| (p2.clone() * v + p1) * v + p0;
     let middle = p1.clone() * &(v0.clone() + v1).half() + &(p2.clone() * &(v0.clone() * v1)) + p0;
-    let (a, b) = (at(v0), at(v1));
-    a.lo().clone().min(b.lo().clone()).min(middle.lo().clone())
+    [at(v0), middle, at(v1)]
 }
 
-/// Smallest Bernstein coefficient (lower bound) of |Δ|² − K A on [v0, v1], Δ quadratic and A linear in v.
+/// Bernstein coefficients of |Δ|² − K A on [v0, v1], Δ quadratic and A linear in v.
 fn quartic<S: Directed>(
     delta: &[Enclosed<S>; 3],
     a: &[Interval<S>; 2],
     k: &Interval<S>,
     v0: &Interval<S>,
     v1: &Interval<S>,
-) -> S {
+) -> [Interval<S>; 5] {
     let [e0, e1, e2] = delta;
     let at = |v: &Interval<S>| e0.plus_scaled(v, &e1.plus_scaled(v, e2));
     let (d0, d2) = (at(v0), at(v1));
@@ -304,19 +378,14 @@ fn quartic<S: Directed>(
         d1.dot(&d2) - &(middle.clone() + &f1).half(),
         d2.norm_sq() - &f1,
     ]
-    .into_iter()
-    .map(|g| g.lo().clone())
-    .fold(S::infinity(), S::min)
 }
 
-/// Smallest Bernstein coefficient (lower bound) of |Δ|² − K d·Δ, Δ cubic with these control points.
-fn sextic<S: Directed>(d: &[Enclosed<S>; 4], direction: &Enclosed<S>, k: &Interval<S>) -> S {
+/// Smallest Bernstein coefficient (lower bound) of |Δ|² − A, Δ and A cubic with these control points.
+fn sextic<S: Directed>(d: &[Enclosed<S>; 4], [a0, a1, a2, a3]: [Interval<S>; 4]) -> S {
     let [d0, d1, d2, d3] = d;
-    let kd = direction.scaled(k);
-    let [a0, a1, a2, a3] = [d0, d1, d2, d3].map(|x| kd.dot(x));
     let n = Interval::int;
     let five = n(5);
-    [
+    least([
         d0.norm_sq() - &a0,
         d0.dot(d1) - &(a0.clone() + &a1).half(),
         (d0.dot(d2).twice() + &(d1.norm_sq() * &n(3)) - &(a0.clone() + &(a1.clone() * &n(3)) + &a2)) / &five,
@@ -324,10 +393,7 @@ fn sextic<S: Directed>(d: &[Enclosed<S>; 4], direction: &Enclosed<S>, k: &Interv
         (d1.dot(d3).twice() + &(d2.norm_sq() * &n(3)) - &(a1 + &(a2.clone() * &n(3)) + &a3)) / &five,
         d2.dot(d3) - &(a2 + &a3).half(),
         d3.norm_sq() - &a3,
-    ]
-    .into_iter()
-    .map(|g| g.lo().clone())
-    .fold(S::infinity(), S::min)
+    ])
 }
 
 /// a u² + b uv + c v² ≥ 0 for all u, v ≥ 0 of these ranges.
@@ -387,13 +453,13 @@ pub fn reaches<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, segment: u32, 
         for side in 0..2 {
             let near = EndId::new(feet.segment, side);
             let u = if side == 0 { &from[0] } else { &from[1] };
-            for other in scene.curve.joint(near).skip(1).filter(|e| e.segment() == segment) {
+            for other in scene.meeting(near, segment) {
                 let (Some(f), Some(q)) = (scene.outgoing(near), scene.outgoing(other)) else { continue };
                 let speed = f.derivative(u).norm();
                 if f.retracted || *speed.lo() <= S::zero() {
                     continue;
                 }
-                let smooth = scene.curve.end(near).is_some_and(|e| e.kind == JointKind::Smooth);
+                let smooth = scene.smooth(near, other);
                 let [v, _] = piece.seen_from(other.side());
                 let [c1, c2, c3] = &f.c;
                 let [b1, b2, b3] = &q.c;
@@ -413,8 +479,9 @@ pub fn reaches<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, segment: u32, 
         }
     }
     if let Some(q) = scene.outgoing(EndId::new(segment, 0)) {
-        let d = q.point(&Interval::point(t.clone())).minus(&feet.point);
-        offer(&d.norm_sq(), feet.direction.dot(&d), &feet.length);
+        let q = q.point(&Interval::point(t.clone()));
+        let d = q.minus(&feet.point);
+        offer(&d.norm_sq(), feet.ahead(&q, &d), &feet.length);
     }
     best
 }

@@ -53,7 +53,7 @@ pub(crate) fn on<const N: usize>(mut powers: [Real; N], from: Real, to: Real) ->
 }
 
 /// Adds the product of two polynomials to a form of degree (a's + b's).
-fn add_product(form: &mut Form, a: &[Real], b: &[Real]) {
+pub(crate) fn add_product(form: &mut Form, a: &[Real], b: &[Real]) {
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {
             form[i + j] = form[i + j] + *x * *y;

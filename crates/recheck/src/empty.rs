@@ -15,7 +15,7 @@ use feature_sampling::curve::{EndId, JointKind};
 use feature_sampling::geometry::Vector;
 use feature_sampling::scalar::Field;
 
-use crate::bernstein::{Real, disk, least, on};
+use crate::bernstein::{Real, add_product, disk, least, on};
 use crate::feet::{Capsule, Feet, Span, own_bend, points, seen};
 use crate::scene::Scene;
 
@@ -48,62 +48,81 @@ pub(crate) fn empty(scene: &Scene<'_>, span: &Span, radius: f64, work: &mut Work
     if !radius.is_finite() {
         return false;
     }
-    let (centre, spread) = Capsule::new(scene, span).disk(radius);
-    let reach = Real::point(radius) + Real::point(spread);
+    let disks = Disks::new(scene, span, radius);
     let mut found = std::mem::take(&mut work.found);
-    scene.obstacles.near(&centre, *reach.square().hi(), &mut found);
+    scene.obstacles.near(&disks.centre, disks.reach_sq, &mut found);
     work.evaluations = EVALUATIONS;
     let shown = found.iter().all(|&i| {
         let (segment, range) = scene.stretches[i];
-        outside(scene, span, segment, range, radius, work)
+        disks.miss(scene, segment, range, work)
     });
     work.found = found;
     shown
 }
 
-/// A stretch of a segment lies outside all of the disks.
-fn outside(scene: &Scene<'_>, span: &Span, segment: u32, range: [f64; 2], radius: f64, work: &mut Work) -> bool {
-    if work.evaluations == 0 {
-        return false;
+/// All tangent disks of one radius at the feet of a cell.
+struct Disks {
+    span: Span,
+    feet: Option<Feet>,
+    radius: f64,
+    /// They lie within a disk around this point,
+    centre: Enclosed<f64>,
+    /// of at most this radius, squared.
+    reach_sq: f64,
+}
+
+impl Disks {
+    fn new(scene: &Scene<'_>, span: &Span, radius: f64) -> Self {
+        let (centre, spread) = Capsule::new(scene, span).disk(radius);
+        let reach = Real::point(radius) + Real::point(spread);
+        Self { span: *span, feet: Feet::new(scene, span), radius, centre, reach_sq: *reach.square().hi() }
     }
-    work.evaluations -= 1;
-    let feet = Feet::new(scene, span);
-    if let Some(feet) = &feet
-        && misses(scene, feet, segment, range, radius)
-    {
-        return true;
+
+    /// A stretch of a segment lies outside all of them.
+    fn miss(&self, scene: &Scene<'_>, segment: u32, range: [f64; 2], work: &mut Work) -> bool {
+        if scene.bounds(segment, range).distance_sq(&self.centre) > self.reach_sq {
+            return true;
+        }
+        if work.evaluations == 0 {
+            return false;
+        }
+        work.evaluations -= 1;
+        if let Some(feet) = &self.feet
+            && misses(scene, feet, segment, range, self.radius)
+        {
+            return true;
+        }
+        // The longer one is halved; directions count as the way that the far side of the disk makes.
+        let extent = |v: &Enclosed<f64>| v.x.width().max(v.y.width());
+        let own = self.feet.as_ref().map_or(f64::INFINITY, |f| {
+            let turned = if f.fan.is_some() { extent(&f.direction) * self.radius } else { 0.0 };
+            extent(&f.point) + turned
+        });
+        let [a, b] = range;
+        let m = 0.5 * (a + b);
+        let its = scene
+            .from(EndId::new(segment, 0))
+            .map_or(0.0, |o| extent(&crate::feet::box_of(o, Real::point(a), Real::point(b))));
+        if its > 0.5 * own && a < m && m < b {
+            return self.miss(scene, segment, [a, m], work) && self.miss(scene, segment, [m, b], work);
+        }
+        let Some(halves) = self.span.halves() else { return false };
+        halves.iter().all(|half| Self::new(scene, half, self.radius).miss(scene, segment, range, work))
     }
-    // The longer one is halved; directions count as the way that the far side of the disk makes.
-    let extent = |v: &Enclosed<f64>| v.x.width().max(v.y.width());
-    let own = feet.as_ref().map_or(f64::INFINITY, |f| {
-        let turned = if f.fan.is_some() { extent(&f.direction) * radius } else { 0.0 };
-        extent(&f.point) + turned
-    });
-    let [a, b] = range;
-    let m = 0.5 * (a + b);
-    let its = scene
-        .from(EndId::new(segment, 0))
-        .map_or(0.0, |o| extent(&crate::feet::box_of(o, Real::point(a), Real::point(b))));
-    if its > 0.5 * own && a < m && m < b {
-        return outside(scene, span, segment, [a, m], radius, work)
-            && outside(scene, span, segment, [m, b], radius, work);
-    }
-    let Some(halves) = span.halves() else { return false };
-    halves.iter().all(|half| outside(scene, half, segment, range, radius, work))
 }
 
 /// One of the forms shows it.
 fn misses(scene: &Scene<'_>, feet: &Feet, segment: u32, range: [f64; 2], radius: f64) -> bool {
     let k = Real::point(radius).twice() / feet.length;
-    let of_segment = |end: &EndId| end.segment() == segment;
+    let itself = Some(feet.near).filter(|e| e.segment() == segment);
     let near = if feet.fan.is_some() {
-        scene.curve.joint(feet.near).filter(of_segment).any(|end| beside_fan(scene, feet, end, range, k))
+        let mut ends = itself.into_iter().chain(scene.at_point_of(feet.near, segment));
+        ends.any(|end| beside_fan(scene, feet, end, range, k))
     } else {
         let mut ends = [feet.near, feet.near.opposite()].into_iter();
-        (feet.near.segment() == segment && beside_own(scene, feet, range, k))
+        (itself.is_some() && beside_own(scene, feet, range, k))
             || ends.any(|near| {
-                let mut others = scene.curve.joint(near).skip(1).filter(of_segment);
-                others.any(|other| across(scene, feet, near, other, range, radius))
+                scene.at_point_of(near, segment).any(|other| across(scene, feet, near, other, range, radius))
             })
     };
     near || apart(scene, feet, segment, range, k)
@@ -114,7 +133,19 @@ fn apart(scene: &Scene<'_>, feet: &Feet, segment: u32, range: [f64; 2], k: Real)
     let Some(o) = scene.from(EndId::new(segment, 0)) else { return false };
     let [a, b] = seen(range, 0);
     let [x, y] = points(o, a, b, &feet.point);
-    least(&disk(&x, &y, k, &towards(&x, &y, &feet.direction))) >= 0.0
+    let mut ahead = towards(&x, &y, &feet.direction);
+    if let Some(mean) = &feet.mean {
+        let [mx, my] = points(o, a, b, &mean.point);
+        let (middle, turned) = (towards(&mx, &my, &mean.direction), towards(&x, &y, &mean.turning));
+        // Two enclosures of the same coefficients; only how large they may be matters.
+        for (a, (m, t)) in ahead.iter_mut().zip(middle.into_iter().zip(turned)) {
+            let other = m + mean.off * t;
+            if other.hi() < a.hi() {
+                *a = other;
+            }
+        }
+    }
+    least(&disk(&x, &y, k, &ahead)) >= 0.0
 }
 
 /// d·(x, y), coefficient by coefficient.
@@ -169,15 +200,18 @@ struct Across {
 impl Across {
     fn new(scene: &Scene<'_>, feet: &Feet, near: EndId, other: EndId) -> Option<Self> {
         let (f, q) = (scene.from(near)?, scene.from(other)?);
-        let (u, end) = (feet.u?, scene.curve.end(near)?);
+        let u = feet.u?;
         let u = if near == feet.near { u } else { Real::int(1) - u };
         let speed = f.derivative(&u).norm();
-        if f.retracted || *speed.lo() <= 0.0 {
+        if *speed.lo() <= 0.0 {
             return None;
         }
         let [c1, c2, c3] = f.c;
         let (k12, k13, k23) = (c1.cross(&c2), c1.cross(&c3), c2.cross(&c3));
-        let first = (end.kind != JointKind::Smooth).then(|| c1.cross(&q.c[0]));
+        // Joined smoothly, both have one tangent line.
+        let smooth = scene.curve.end(near).is_some_and(|e| e.kind == JointKind::Smooth)
+            && scene.curve.joint(near).any(|e| e == other);
+        let first = (!smooth).then(|| c1.cross(&q.c[0]));
         Some(Self {
             u,
             d_f: c1.plus_scaled(&u, &c2.plus_scaled(&u, &c3)),
@@ -242,15 +276,25 @@ fn beside_fan(scene: &Scene<'_>, feet: &Feet, end: EndId, range: [f64; 2], k: Re
     if away(&feet.direction) {
         return true;
     }
-    if feet.near != end || !away(&fan.second) {
+    if feet.near != end {
         return false;
     }
+    let held = away(&fan.second);
     if q.retracted {
         // What is left of e₁·(b₂ + v b₃) is v e₁·b₃.
-        return *fan.first.dot(&q.c[2]).hi() <= 0.0;
+        return held && *fan.first.dot(&q.c[2]).hi() <= 0.0;
     }
     let turned = on([fan.first.dot(&q.c[1]), fan.first.dot(&q.c[2])], from, to);
-    least(&disk(&x, &y, k, &turned)[..5]) >= 0.0
+    let bent = disk(&x, &y, k, &turned);
+    if held && least(&bent[..5]) >= 0.0 {
+        return true;
+    }
+    // G/v = v(|D|² − K(1−λ)e₁·(b₂ + v b₃)) − Kλ e₂·D, of degree five: near the joint the last term is what counts.
+    let aside = towards(&x, &y, &fan.second.scaled(&(fan.share * k)));
+    let mut form = [Real::point(0.0); 7];
+    add_product(&mut form, &bent[..5], &[from, to]);
+    add_product(&mut form, &aside.map(|a| -a), &[1, 3, 3, 1].map(Real::int));
+    least(&form[..6]) >= 0.0
 }
 
 /// The radii of the largest empty disks at all feet of a cell are at most this, since they cannot hold the point of C with this
@@ -263,8 +307,13 @@ pub(crate) fn reached(scene: &Scene<'_>, feet: &Feet, segment: u32, t: f64) -> f
         }
     };
     if let Some(q) = scene.from(EndId::new(segment, 0)) {
-        let d = q.point(&Real::point(t)).minus(&feet.point);
+        let q = q.point(&Real::point(t));
+        let d = q.minus(&feet.point);
         offer(d.norm_sq(), feet.direction.dot(&d), feet.length);
+        if let Some(mean) = &feet.mean {
+            let ahead = mean.direction.dot(&q.minus(&mean.point)) + mean.off * mean.turning.dot(&d);
+            offer(d.norm_sq(), ahead, feet.length);
+        }
     }
     if let Some(u) = feet.u {
         if feet.near.segment() == segment
@@ -277,7 +326,7 @@ pub(crate) fn reached(scene: &Scene<'_>, feet: &Feet, segment: u32, t: f64) -> f
             offer(chord.norm_sq(), if feet.left { bend } else { -bend }, feet.length);
         }
         for near in [feet.near, feet.near.opposite()] {
-            for other in scene.curve.joint(near).skip(1).filter(|e| e.segment() == segment) {
+            for other in scene.at_point_of(near, segment) {
                 let Some(f) = Across::new(scene, feet, near, other) else { continue };
                 let [v, _] = seen([t, t], other.side());
                 let [b1, b2, b3] = f.q;

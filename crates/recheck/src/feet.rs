@@ -84,6 +84,21 @@ pub(crate) struct Fan {
     pub(crate) first: Enclosed<f64>,
     /// e₂.
     pub(crate) second: Enclosed<f64>,
+    /// λ.
+    pub(crate) share: Real,
+}
+
+/// The middle of a stretch, for mean values: d·(q−f) = dₘ·(q−fₘ) + (u−uₘ) d'·(q−f) somewhere on the stretch, since d·F' = 0.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mean {
+    /// fₘ.
+    pub(crate) point: Enclosed<f64>,
+    /// dₘ.
+    pub(crate) direction: Enclosed<f64>,
+    /// d' on all of the stretch.
+    pub(crate) turning: Enclosed<f64>,
+    /// u − uₘ.
+    pub(crate) off: Real,
 }
 
 /// Enclosures over all feet of a cell.
@@ -101,6 +116,8 @@ pub(crate) struct Feet {
     /// |d|, above zero.
     pub(crate) length: Real,
     pub(crate) fan: Option<Fan>,
+    /// For a stretch.
+    pub(crate) mean: Option<Mean>,
 }
 
 /// What is known of where the medial points of a cell are, for radii that are not known yet.
@@ -197,15 +214,30 @@ impl Feet {
                     return None;
                 }
                 let left = left == (side == 0);
-                let normal = t.left();
+                let normal = |t: Enclosed<f64>| if left { t.left() } else { t.left().opposite() };
+                let u = first.hull(&last);
+                let middle = Real::point(u.middle());
+                let [_, c2, c3] = &o.c;
+                let bent = if o.retracted {
+                    c3.scaled(&Real::int(3))
+                } else {
+                    c2.scaled(&Real::int(2)).plus_scaled(&u, &c3.scaled(&Real::int(6)))
+                };
+                let mean = Mean {
+                    point: o.point(&middle),
+                    direction: normal(o.tangent(&middle)),
+                    turning: normal(bent),
+                    off: u - middle,
+                };
                 Some(Self {
                     near,
-                    u: Some(first.hull(&last)),
+                    u: Some(u),
                     left,
                     point: box_of(o, first, last),
-                    direction: if left { normal } else { normal.opposite() },
+                    direction: normal(t),
                     length,
                     fan: None,
+                    mean: Some(mean),
                 })
             }
             Span::Fan { end, other, left, from, to } => {
@@ -230,8 +262,8 @@ impl Feet {
                 if *length.lo() <= 0.0 || !length.hi().is_finite() {
                     return None;
                 }
-                let fan = Some(Fan { first, second });
-                Some(Self { near, u: None, left, point: own.end, direction, length, fan })
+                let fan = Some(Fan { first, second, share: lambda });
+                Some(Self { near, u: None, left, point: own.end, direction, length, fan, mean: None })
             }
         }
     }

@@ -40,6 +40,15 @@ impl<'c> Scene<'c> {
         self.ideal.get(end.segment() as usize).map(|s| s.from(end.side()))
     }
 
+    /// Ends of a segment, but not this one, at its very point. They need not be joined.
+    pub(crate) fn at_point_of(&self, near: EndId, segment: u32) -> impl Iterator<Item = EndId> {
+        let point = self.curve.end_point(near);
+        [0, 1]
+            .map(|side| EndId::new(segment, side))
+            .into_iter()
+            .filter(move |&e| e != near && point.is_some() && self.curve.end_point(e) == point)
+    }
+
     /// A box around a stretch of a segment; everything where there is none.
     pub(crate) fn bounds(&self, segment: u32, [a, b]: [f64; 2]) -> Box2 {
         let Some(o) = self.from(EndId::new(segment, 0)) else { return Box2::EVERYTHING };

@@ -102,5 +102,7 @@ pub mod model;
 mod order;
 pub mod polynomial;
 pub mod predicate;
+#[cfg(feature = "alloc")]
+pub mod prover;
 pub mod sampling;
 pub mod scalar;

@@ -5,19 +5,16 @@
 
 use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};
-use crate::certificate::condition::{Workspace, judge};
-use crate::certificate::singular::neighbourhoods;
 use crate::certificate::{Claim, Neighbourhood, Piece, Placed, Step, Verdict};
 use crate::curve::contact::{self, Contact};
 use crate::curve::door::{self, CurveBuffers, CurveError, DoorOptions, DoorReport, Entered, PathInput};
-use crate::curve::{Arc, Curve, CurveParam, Path, Segment, ideal};
+use crate::curve::{Arc, Curve, CurveParam, Path, Segment};
 use crate::geometry::Point;
 use crate::geometry::hierarchy::{Item, Node};
-use crate::lfs::bound::Band;
 use crate::lfs::{self, LfsIndex};
 use crate::medial::cell::Cell;
-use crate::medial::clear::Scene;
 use crate::medial::{self, MedialPoint, Resolution};
+use crate::prover::Prover;
 use crate::sampling::{self, Sample, SamplingError, SamplingOptions};
 use crate::scalar::{Directed, Scalar};
 use alloc::vec::Vec;
@@ -154,7 +151,7 @@ pub struct Judgement<S> {
     pub neighbourhoods: Vec<Neighbourhood<S>>,
     /// Their steps.
     pub steps: Vec<Step<S>>,
-    /// Cells of the foot set: roots first, then pairs of halves.
+    /// Cells of the foot set: roots first, then pairs of halves. None where a [`Prover`] keeps them for what is asked next.
     pub cells: Vec<Cell<S>>,
     /// How many of them are roots.
     pub roots: usize,
@@ -164,22 +161,9 @@ impl<S: Directed> CurveModel<S> {
     /// Judges samples, sorted by path, segment and parameter ([`crate::certificate`]). No more than `cells` cells are made;
     /// with `stop` the first witness ends it.
     pub fn certify(&self, samples: &[Placed<S>], claim: &Claim<S>, cells: usize, stop: bool) -> Judgement<S> {
-        let curve = self.curve();
-        let (mut coefficients, mut places, mut steps, mut extents) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut work = Workspace { pieces: Vec::new(), cells: Vec::new() };
-        let mut roots = 0;
-        let mut run = || -> Result<(Verdict<S>, Vec<Cell<S>>), BufferFull> {
-            ideal::coefficients(&curve, &mut coefficients)?;
-            let scene = Scene { curve: &curve, ideal: &coefficients };
-            neighbourhoods(&scene, &self.contacts, claim, &mut places, &mut steps, &mut extents)?;
-            let mut band = Band::new(scene, Vec::new(), cells)?;
-            let verdict = judge(&mut band, samples, claim, &extents, stop, &mut work)?;
-            roots = band.roots();
-            Ok((verdict, band.into_cells()))
-        };
-        // Vectors are never full.
-        let (verdict, cells) = run().unwrap_or((Verdict::Unknown, Vec::new()));
-        Judgement { verdict, pieces: work.pieces, neighbourhoods: places, steps, cells, roots }
+        let mut prover = Prover::new(self, cells);
+        let judgement = prover.judge(samples, claim, stop);
+        Judgement { cells: prover.into_cells(), ..judgement }
     }
 }
 

@@ -21,7 +21,10 @@ const DEPTH: usize = 60;
 
 /// What [`judge`] works with and answers in; nothing is allocated.
 #[derive(Debug)]
-pub struct Workspace<P, C> {
+pub struct Workspace<'w, S, P, C> {
+    /// Pieces of an earlier judgement of the same claim on fewer samples, by path and parameter, with the samples' new numbers. Where they
+    /// prove a gap that is still one, it is not looked at again.
+    pub known: &'w [Piece<S>],
     /// The pieces, by path and parameter, when it is done.
     pub pieces: P,
     /// Cells that are not yet discharged.
@@ -40,7 +43,7 @@ pub fn judge<S, B, P, C>(
     claim: &Claim<S>,
     extents: &[Extent<S>],
     stop: bool,
-    work: &mut Workspace<P, C>,
+    work: &mut Workspace<'_, S, P, C>,
 ) -> Result<Verdict<S>, BufferFull>
 where
     S: Directed,
@@ -55,6 +58,7 @@ where
         claim,
         extents,
         stop,
+        known: work.known,
         pieces: &mut work.pieces,
         cells: &mut work.cells,
         verdict: Verdict::Proved,
@@ -77,6 +81,7 @@ struct Judge<'j, 'b, S, B, P, C> {
     claim: &'j Claim<S>,
     extents: &'j [Extent<S>],
     stop: bool,
+    known: &'j [Piece<S>],
     pieces: &'j mut P,
     cells: &'j mut C,
     verdict: Verdict<S>,
@@ -168,6 +173,9 @@ where
 
     /// Proves, refutes or gives up the stretch between two neighbouring samples on one segment.
     fn gap(&mut self, segment: u32, span: [S; 2], neighbours: [Option<u32>; 2]) -> Result<(), BufferFull> {
+        if self.again(segment, &span, neighbours)? {
+            return Ok(());
+        }
         let Some(cubic) = self.band.scene().curve.segment(segment).map(|s| s.cubic.clone()) else { return Ok(()) };
         let mut pending: ArrayVec<Task<S>, DEPTH> = ArrayVec::new();
         self.full = self.band.len().saturating_add(self.claim.gap_cells);
@@ -229,6 +237,30 @@ where
         Ok(())
     }
 
+    /// Takes over the pieces of an earlier judgement, if they prove all of a gap: lfs is what it was, and a floor serves as long as its
+    /// sample is still a neighbour.
+    fn again(&mut self, segment: u32, span: &[S; 2], neighbours: [Option<u32>; 2]) -> Result<bool, BufferFull> {
+        let first =
+            self.known.partition_point(|p| p.segment < segment || (p.segment == segment && p.span[0] < span[0]));
+        let known = self.known.get(first..).unwrap_or_default();
+        let count = known.partition_point(|p| p.segment == segment && p.span[1] <= span[1]);
+        let known = known.get(..count).unwrap_or_default();
+        let holds = |p: &Piece<S>| match p.reason {
+            Reason::Feature(_) => true,
+            _ => p.reason.proves() && neighbours.contains(&Some(p.sample)),
+        };
+        let whole = known.first().is_some_and(|p| p.span[0] == span[0])
+            && known.last().is_some_and(|p| p.span[1] == span[1])
+            && known.windows(2).all(|pair| pair[0].span[1] == pair[1].span[0]);
+        if !whole || !known.iter().all(holds) {
+            return Ok(false);
+        }
+        for piece in known {
+            self.pieces.push(piece.clone())?;
+        }
+        Ok(true)
+    }
+
     /// Discharges or divides cells; appends those that are left. Whether the limit of cells was met.
     fn discharge_all(&mut self, task: &Task<S>, shape: &Shape<S>, need: &S) -> Result<bool, BufferFull> {
         let start = task.open[1];
@@ -269,7 +301,8 @@ where
                     self.cells.push(b)?;
                     continue;
                 }
-                limited |= large;
+                // A cell that is as small as it will ever be is no reason to give up: smaller pieces ask less of it.
+                limited |= large && (!may || self.band.is_full());
             }
             if let Some(slot) = self.cells.items_mut().get_mut(kept) {
                 *slot = cell;

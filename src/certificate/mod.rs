@@ -14,6 +14,7 @@
 //! is what the door did before: it is listed in [`crate::curve::door::DoorReport`].
 
 pub mod condition;
+pub mod effective;
 pub mod singular;
 
 use crate::curve::CurveParam;
@@ -93,6 +94,13 @@ pub struct Witness<S> {
     pub lfs: S,
     /// The cell of the band that shows it.
     pub cell: u32,
+}
+
+impl<S: Scalar> Witness<S> {
+    /// The condition fails there for every ε up to this: at most |p−s| / lfs(p).
+    pub fn ratio(&self) -> S {
+        self.distance.clone() / &self.lfs * &(S::one() - &S::unit_roundoff().mul_pow2(4))
+    }
 }
 
 /// Why a piece fulfils the condition, or why that is not known.

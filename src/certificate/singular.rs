@@ -9,7 +9,8 @@
 //!   singular points, and says nothing of strokes that only pass each other at a distance.
 //! * From there `March` goes along the path in both directions, in steps on all of which lfs is certainly below floor/ε:
 //!   since the place is near (lfs grows no faster than the distance), or since the medial point of some foot is. Such feet are tried
-//!   between the step and the place: beside a corner the nearest medial point of p stands on feet that are nearer to it.
+//!   between the step and the place, since beside a corner the nearest medial point of p stands on feet that are nearer to it, and
+//!   around the step.
 //!
 //! What is listed is never longer than the true stretch.
 
@@ -24,8 +25,12 @@ use crate::medial::disk::tangent_disk;
 use crate::medial::{Foot, Side};
 use crate::scalar::Directed;
 
-/// Feet that are tried for each step.
+/// Feet that are tried for each step, from it to the place.
 const FEET: i32 = 8;
+
+/// Feet that are tried on either side of a step, a twelfth of the limit apart: the nearest medial point is then missed by less than a
+/// hundredth of it.
+const AROUND: i32 = 24;
 
 /// An upper bound of the radius at a foot, and why.
 fn reach<S: Directed>(scene: &Scene<'_, S>, at: &CurveParam<S>, side: Side) -> (S, Option<CurveParam<S>>) {
@@ -189,9 +194,13 @@ where
         } else {
             S::one()
         };
-        for k in 0..FEET {
-            let share = S::ratio(k, FEET);
-            let at = CurveParam { segment, t: (back.clone() - &t) * &share + &t };
+        let towards_place = (0..FEET).map(|k| (back.clone() - &t) * &S::ratio(k, FEET) + &t);
+        // And in either direction: a medial point nearer than the limit has feet within twice that.
+        let speed = s.power.derivative(&t).norm();
+        let apart = if speed > S::zero() { self.below.clone() / &speed } else { S::zero() };
+        let around = (1..=AROUND).flat_map(|k| [-k, k]).map(|k| apart.clone() * &S::ratio(2 * k, AROUND) + &t);
+        for t in towards_place.chain(around.filter(|t| *t >= S::zero() && *t <= S::one())) {
+            let at = CurveParam { segment, t };
             let foot = s.point(&at.t);
             for side in [Side::Left, Side::Right] {
                 let (radius, witness) = reach(self.scene, &at, side);

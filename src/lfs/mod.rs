@@ -9,6 +9,7 @@
 
 pub mod bound;
 pub mod compact;
+pub mod enclose;
 #[cfg(feature = "kiddo")]
 pub mod kd;
 

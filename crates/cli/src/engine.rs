@@ -8,6 +8,7 @@
 //! order of the document. So the number of threads decides how long it takes and nothing else.
 
 mod certified;
+mod enclosed;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -24,6 +25,7 @@ use lineart::drawing::{Drawing, DrawingPath};
 use lineart::export::{LfsRow, MedialRow, PathRows, SampleRow, control_box};
 
 pub(crate) use certified::{Effort, Fault, Judged, recheck};
+pub(crate) use enclosed::{Enclosed, Width};
 
 use crate::errors::{Failure, shown};
 use crate::progress::Progress;
@@ -229,7 +231,7 @@ impl<'d> Engine<'d> {
 
     fn lfs_row(&self, at: &CurveParam<f64>, p: &Point<f64>) -> LfsRow {
         let (path, segment, t) = self.curve.source(at);
-        LfsRow { path, segment, t, x: p.x, y: p.y, lfs: self.medial.lfs(p) }
+        LfsRow { path, segment, t, x: p.x, y: p.y, lfs: self.medial.lfs(p), bounds: None }
     }
 
     /// lfs at all foot points and all ends of cubics, along the paths.

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use fsample_recheck::Certificate;
-use lineart::export::number::Readable;
+use lineart::export::number::{Number, Readable};
 
 use crate::engine::{self, Bounds, Engine, Fault, Judged};
 use crate::errors::Failure;
@@ -33,6 +33,15 @@ pub(crate) fn run(args: &CertifyArgs) -> Result<(), Failure> {
     let diagonal = Engine::diagonal(&drawing);
     let min_distance = args.min_distance(&drawing, diagonal)?;
     let engine = Engine::new(&drawing, &options)?;
+    if args.effective {
+        let found = match &samples {
+            Some(samples) => engine.effective(samples, epsilon, min_distance, effort)?,
+            None => engine.effective_of_placed(epsilon, min_distance, effort)?,
+        };
+        summary.door(&engine.door());
+        summary.print(&args.input.file);
+        return say(&format!("effective epsilon from {} to {}", Number(found.lower), Number(found.upper)));
+    }
     let judged = match &samples {
         Some(samples) => engine.certify(samples, epsilon, min_distance, effort)?,
         None => engine.sample_certified(&Bounds::least(epsilon, min_distance), epsilon, effort)?.1,

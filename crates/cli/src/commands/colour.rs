@@ -143,7 +143,7 @@ fn take_background(drawing: &mut Drawing) -> bool {
 /// A document for a drawing that came as a table.
 fn picture(drawing: &Drawing) -> Result<String, Failure> {
     let mut bytes = Vec::new();
-    let picture = Picture { drawing, show_drawing: true, lfs: None, medial: None, samples: None };
+    let picture = Picture { drawing, show_drawing: true, lfs: None, medial: None, samples: None, band: None };
     picture.write(&mut bytes).map_err(|error| Failure::output("-", &error))?;
     String::from_utf8(bytes).map_err(|error| Failure::input(&drawing.source, error))
 }

@@ -4,7 +4,7 @@ use lineart::export::number::Readable;
 use lineart::export::svg::Picture;
 use lineart::export::{Header, OptionValue, PathRows, csv, json};
 
-use crate::engine::Engine;
+use crate::engine::{Enclosed, Engine};
 use crate::errors::Failure;
 use crate::input;
 use crate::options::LfsArgs;
@@ -16,6 +16,7 @@ pub(crate) fn run(args: &LfsArgs) -> Result<(), Failure> {
     let formats = [Format::Svg, Format::Csv, Format::Json];
     let target = Target::new(args.output.output.as_deref(), args.output.format.as_deref(), &formats)?;
     let options = args.model.check()?;
+    let width = args.width()?;
     if args.input.file == "-" && args.at.as_deref() == Some("-") {
         return Err(Failure::usage("the drawing and the points cannot both come from standard input"));
     }
@@ -29,18 +30,21 @@ pub(crate) fn run(args: &LfsArgs) -> Result<(), Failure> {
     target.check_folder()?;
 
     let engine = Engine::new(&drawing, &options)?;
-    let paths = match &points {
+    let mut paths = match &points {
         // The order of the points is kept, whichever path each is near: they are one list.
         Some(points) => vec![PathRows { closed: false, rows: points.iter().map(|p| engine.lfs_at(p)).collect() }],
         None => engine.lfs_along(),
     };
+    let enclosed = width.map(|width| engine.enclose(&mut paths, width, target.format == Format::Svg));
     let mut described = args.model.describe();
     described.extend(args.at.clone().map(|file| ("at", OptionValue::Text(file))));
     let header = Header { source: drawing.source.clone(), options: described, diagonal: Engine::diagonal(&drawing) };
     target.write(|out| match target.format {
         Format::Json => json::lfs(out, &header, &paths),
         Format::Svg => {
-            Picture { drawing: &drawing, show_drawing: true, lfs: Some(&paths), medial: None, samples: None }.write(out)
+            let band = enclosed.as_ref().and_then(|e| e.band.as_deref());
+            Picture { drawing: &drawing, show_drawing: true, lfs: Some(&paths), medial: None, samples: None, band }
+                .write(out)
         }
         _ => csv::lfs(out, &paths),
     })?;
@@ -51,7 +55,21 @@ pub(crate) fn run(args: &LfsArgs) -> Result<(), Failure> {
         let place = format!("at ({}, {}), path {} segment {}", Readable(row.x), Readable(row.y), row.path, row.segment);
         summary.say(format!("smallest lfs {} {place}", Readable(row.lfs)));
     }
+    if let Some(enclosed) = &enclosed {
+        proved(&mut summary, enclosed, rows().filter_map(|row| row.bounds));
+    }
     summary.door(&engine.door());
     summary.print(&args.input.file);
     Ok(())
+}
+
+/// What was proved: the reach and where, how wide the bounds are.
+fn proved(summary: &mut Summary, enclosed: &Enclosed, bounds: impl Iterator<Item = [f64; 2]>) {
+    let [lower, upper] = enclosed.reach.map(Readable);
+    let place = enclosed.at.map(|p| format!(" at ({}, {})", Readable(p.x), Readable(p.y))).unwrap_or_default();
+    summary.say(format!("reach from {lower} to {upper}{place}"));
+    let share = |[lower, upper]: [f64; 2]| if upper > 0.0 { 1.0 - lower / upper } else { 0.0 };
+    let widest = bounds.map(share).fold(0.0, f64::max);
+    summary.say(format!("bounds no wider than {} %", Readable(100.0 * widest)));
+    summary.say(count(enclosed.cells, "cell"));
 }

@@ -25,9 +25,15 @@ pub(crate) fn run(args: &MedialArgs) -> Result<(), Failure> {
         Header { source: drawing.source.clone(), options: args.model.describe(), diagonal: Engine::diagonal(&drawing) };
     target.write(|out| match target.format {
         Format::Json => json::medial(out, &header, &paths),
-        Format::Svg => {
-            Picture { drawing: &drawing, show_drawing: true, lfs: None, medial: Some(&paths), samples: None }.write(out)
+        Format::Svg => Picture {
+            drawing: &drawing,
+            show_drawing: true,
+            lfs: None,
+            medial: Some(&paths),
+            samples: None,
+            band: None,
         }
+        .write(out),
         _ => csv::medial(out, &paths),
     })?;
 

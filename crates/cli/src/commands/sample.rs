@@ -73,6 +73,7 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
                 lfs: lfs.as_deref(),
                 medial: medial.as_deref(),
                 samples: shown(Layer::Samples).then_some(&paths),
+                band: None,
             }
             .write(out)
         }
@@ -93,7 +94,7 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
 fn lfs_rows(path: &PathRows<SampleRow>) -> PathRows<LfsRow> {
     let row = |row: &SampleRow| {
         let SampleRow { path, segment, t, x, y, lfs, .. } = *row;
-        LfsRow { path, segment, t, x, y, lfs }
+        LfsRow { path, segment, t, x, y, lfs, bounds: None }
     };
     PathRows { closed: path.closed, rows: path.rows.iter().map(row).collect() }
 }

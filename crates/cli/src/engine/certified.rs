@@ -1,9 +1,11 @@
 //! Certificates: samples of a drawing judged by the kernel, and the answer in terms of the drawing.
 
-use feature_sampling::certificate::{Claim, Placed, Verdict};
+use feature_sampling::certificate::effective::EffectiveEpsilon;
+use feature_sampling::certificate::{Claim, Piece, Placed, Verdict};
 use feature_sampling::curve::CurveParam;
 use feature_sampling::geometry::Point;
 use feature_sampling::model::{CurveModel, Judgement};
+use feature_sampling::prover::Prover;
 use feature_sampling::sampling::{Bound, Sample};
 use fsample_recheck::{Certificate, Proved, Why};
 use lineart::drawing::Drawing;
@@ -15,6 +17,9 @@ use crate::input::GivenSample;
 
 /// Samples that are added where placed samples could not be proved: so many rounds.
 const ROUNDS: usize = 4;
+
+/// The effective ε is bounded to this share, if it can be.
+const EFFECTIVE: f64 = 5e-3;
 
 /// A point where the condition fails.
 #[derive(Clone, Copy, Debug)]
@@ -103,8 +108,28 @@ pub(crate) struct Effort {
     pub(crate) cells: u32,
 }
 
+fn placed_of(samples: &[Vec<Sample<f64>>]) -> Vec<Placed<f64>> {
+    samples.iter().flatten().map(|s| Placed { path: s.path, at: s.at, point: s.point }).collect()
+}
+
 fn in_order(placed: &mut [Placed<f64>]) {
     placed.sort_by(|a, b| (a.path, a.at.segment).cmp(&(b.path, b.at.segment)).then(a.at.t.total_cmp(&b.at.t)));
+}
+
+/// Gives the samples of pieces their numbers in a list that holds more of them; both lists are in order.
+fn renumber(pieces: &mut [Piece<f64>], before: &[Placed<f64>], after: &[Placed<f64>]) {
+    let mut number = 0;
+    let numbers: Vec<u32> = before
+        .iter()
+        .map(|old| {
+            let behind = after.iter().skip(number).position(|new| new == old).unwrap_or(after.len());
+            number += behind;
+            u32::try_from(number).unwrap_or(u32::MAX)
+        })
+        .collect();
+    for piece in pieces {
+        piece.sample = numbers.get(piece.sample as usize).copied().unwrap_or(u32::MAX);
+    }
 }
 
 impl Engine<'_> {
@@ -123,6 +148,44 @@ impl Engine<'_> {
         Ok(self.judged(&placed, &claim, &self.curve.certify(&placed, &claim, cells, false)))
     }
 
+    /// Bounds of the effective ε of samples that are given.
+    pub(crate) fn effective(
+        &self,
+        given: &[GivenSample],
+        epsilon: f64,
+        min_distance: Option<f64>,
+        effort: Effort,
+    ) -> Result<EffectiveEpsilon<f64>, Failure> {
+        let mut placed = self.placed(given)?;
+        in_order(&mut placed);
+        Ok(self.effective_of(&placed, epsilon, min_distance, effort))
+    }
+
+    /// Bounds of the effective ε of samples that are placed for an ε.
+    pub(crate) fn effective_of_placed(
+        &self,
+        epsilon: f64,
+        min_distance: Option<f64>,
+        effort: Effort,
+    ) -> Result<EffectiveEpsilon<f64>, Failure> {
+        let bounds = Bounds::least(epsilon, min_distance);
+        let mut placed = placed_of(&self.sampled(&bounds, 1.0 - effort.slack)?);
+        in_order(&mut placed);
+        Ok(self.effective_of(&placed, epsilon, min_distance, effort))
+    }
+
+    fn effective_of(
+        &self,
+        placed: &[Placed<f64>],
+        epsilon: f64,
+        min_distance: Option<f64>,
+        effort: Effort,
+    ) -> EffectiveEpsilon<f64> {
+        let claim = Claim { min_distance, ..Claim::new(epsilon) };
+        let cells = usize::try_from(effort.cells).unwrap_or(usize::MAX);
+        Prover::new(&self.curve, cells).effective(placed, &claim, &EFFECTIVE)
+    }
+
     /// Samples that are placed with some slack and judged, with one more wherever they could not be proved.
     pub(crate) fn sample_certified(
         &self,
@@ -134,18 +197,22 @@ impl Engine<'_> {
         let bounds = Bounds { density: Density::Epsilon(epsilon), ..*bounds };
         let mut samples = self.sampled(&bounds, 1.0 - effort.slack)?;
         let cells = usize::try_from(effort.cells).unwrap_or(usize::MAX);
+        let mut prover = Prover::new(&self.curve, cells);
         let mut round = 0;
+        let (mut before, mut known) = (Vec::new(), Vec::new());
         loop {
-            let place = |s: &Sample<f64>| Placed { path: s.path, at: s.at, point: s.point };
-            let mut placed: Vec<Placed<f64>> = samples.iter().flatten().map(place).collect();
+            let mut placed = placed_of(&samples);
             in_order(&mut placed);
-            let judgement = self.curve.certify(&placed, &claim, cells, false);
+            renumber(&mut known, &before, &placed);
+            let mut judgement = prover.judge_again(&placed, &claim, false, &known);
             round += 1;
             if judgement.verdict == Verdict::Proved || round > ROUNDS {
+                judgement.cells = prover.into_cells();
                 let judged = self.judged(&placed, &claim, &judgement);
                 return Ok((self.sample_rows(samples, &bounds), judged));
             }
             self.add_samples(&mut samples, &judgement);
+            (before, known) = (placed, judgement.pieces);
         }
     }
 

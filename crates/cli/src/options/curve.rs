@@ -9,7 +9,7 @@ use lineart::units::Length;
 use super::groups::{
     EffortArgs, InputArg, Layer, ModelArgs, OutputArgs, PlotterArgs, SamplingArgs, above, resolve, share,
 };
-use crate::engine::Effort;
+use crate::engine::{Effort, Width};
 use crate::errors::Failure;
 
 /// Place points along the curves of a drawing.
@@ -75,13 +75,18 @@ pub(crate) struct MedialArgs {
 /// By default at every foot point of the medial axis; with --at, at the given points. For these the path, segment and
 /// parameter are those of the nearest point of the drawing.
 ///
-/// Without -o, a table path,segment,t,x,y,lfs goes to standard output.
+/// With --certified, two more columns bound lfs from below and above, proved in rounded-outwards arithmetic; the summary says between
+/// which bounds the smallest lfs of the whole drawing lies (its reach) and where, and a picture shows the band that the medial
+/// axis lies in.
+///
+/// Without -o, a table path,segment,t,x,y,lfs (and lower,upper) goes to standard output.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   fsample lfs drawing.svg -o lfs.svg                      the curves, coloured
   fsample lfs drawing.svg --at points.txt > lfs.csv       points.txt: one \"x y\" or \"x,y\" per line
-  echo 10 20 | fsample lfs drawing.svg --at -")]
+  echo 10 20 | fsample lfs drawing.svg --at -
+  fsample lfs drawing.svg --certified --width 0.001 > bounds.csv")]
 pub(crate) struct LfsArgs {
     #[command(flatten)]
     pub(crate) input: InputArg,
@@ -90,8 +95,28 @@ pub(crate) struct LfsArgs {
     /// Points to ask about, one "x y" or "x,y" per line; - is standard input
     #[arg(long, value_name = "POINTS")]
     pub(crate) at: Option<String>,
+    /// Prove bounds of lfs from below and above
+    #[arg(long)]
+    pub(crate) certified: bool,
+    /// How far apart bounds may be, as a share of the upper one [default: 0.01]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, requires = "certified")]
+    pub(crate) width: Option<f64>,
+    /// Bounds stay wider where more cells of the foot set would be needed [default: 4000000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), requires = "certified")]
+    pub(crate) max_cells: Option<u32>,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
+}
+
+impl LfsArgs {
+    /// How exactly lfs is to be enclosed, if it is.
+    pub(crate) fn width(&self) -> Result<Option<Width>, Failure> {
+        let share = self.width.unwrap_or(0.01);
+        if !(share > 0.0 && share < 1.0) {
+            return Err(Failure::usage(format!("--width is {share}; it lies between 0 and 1")));
+        }
+        Ok(self.certified.then(|| Width { share, cells: self.max_cells.unwrap_or(4_000_000) }))
+    }
 }
 
 /// Prove that samples are an ε-sample of a drawing, or find a point where they are not.
@@ -122,6 +147,9 @@ pub(crate) struct CertifyArgs {
     pub(crate) min_distance: Option<Length>,
     #[command(flatten)]
     pub(crate) effort: EffortArgs,
+    /// Find the least ε for which they are an ε-sample, between two proved bounds; --epsilon is where the search starts
+    #[arg(long, conflicts_with_all = ["output", "check"])]
+    pub(crate) effective: bool,
     /// Write the certificate to this file, as JSON
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,

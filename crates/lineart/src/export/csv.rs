@@ -13,6 +13,8 @@ pub const SAMPLES: &str = "path,segment,t,x,y,lfs,bound";
 pub const MEDIAL: &str = "path,segment,t,x,y,side,mx,my,radius,polyline";
 /// Columns of the lfs table.
 pub const LFS: &str = "path,segment,t,x,y,lfs";
+/// Columns of proved bounds, behind those of the lfs table.
+pub const LFS_BOUNDS: &str = ",lower,upper";
 
 /// Writes the samples table.
 ///
@@ -41,15 +43,22 @@ pub fn medial(out: &mut dyn Write, paths: &[PathRows<MedialRow>]) -> io::Result<
     Ok(())
 }
 
-/// Writes the lfs table.
+/// Writes the lfs table, with columns `lower,upper` where the first row has bounds.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn lfs(out: &mut dyn Write, paths: &[PathRows<LfsRow>]) -> io::Result<()> {
-    writeln!(out, "{LFS}")?;
-    for row in paths.iter().flat_map(|path| &path.rows) {
+    let rows = || paths.iter().flat_map(|path| &path.rows);
+    let bounded = rows().next().is_some_and(|row| row.bounds.is_some());
+    writeln!(out, "{LFS}{}", if bounded { LFS_BOUNDS } else { "" })?;
+    for row in rows() {
         let [t, x, y, lfs] = [row.t, row.x, row.y, row.lfs].map(Number);
-        writeln!(out, "{},{},{t},{x},{y},{lfs}", row.path, row.segment)?;
+        write!(out, "{},{},{t},{x},{y},{lfs}", row.path, row.segment)?;
+        if let Some(bounds) = row.bounds {
+            let [lower, upper] = bounds.map(Number);
+            write!(out, ",{lower},{upper}")?;
+        }
+        writeln!(out)?;
     }
     Ok(())
 }

@@ -70,7 +70,12 @@ pub fn lfs(out: &mut dyn Write, header: &Header, paths: &[PathRows<LfsRow>]) -> 
     document(out, header, "lfs", paths, |out, row| {
         let [t, x, y, lfs] = [row.t, row.x, row.y, row.lfs].map(JsonNumber);
         let LfsRow { path, segment, .. } = row;
-        write!(out, r#"{{"path":{path},"segment":{segment},"t":{t},"x":{x},"y":{y},"lfs":{lfs}}}"#)
+        write!(out, r#"{{"path":{path},"segment":{segment},"t":{t},"x":{x},"y":{y},"lfs":{lfs}"#)?;
+        if let Some(bounds) = row.bounds {
+            let [lower, upper] = bounds.map(JsonNumber);
+            write!(out, r#","lower":{lower},"upper":{upper}"#)?;
+        }
+        write!(out, "}}")
     })
 }
 

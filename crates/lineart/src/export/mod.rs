@@ -86,6 +86,8 @@ pub struct LfsRow {
     pub y: f64,
     /// Its distance to the medial axis, in user units; infinite where there is none.
     pub lfs: f64,
+    /// What it was proved to be at least and at most.
+    pub bounds: Option<[f64; 2]>,
 }
 
 /// The rows of one path.

@@ -1,8 +1,8 @@
 //! SVG: the drawing and what was found out about it, in layers.
 //!
 //! The picture has the `viewBox` and the physical size of the drawing, so it can be laid over it. Each part is an
-//! Inkscape layer of its own, from the bottom up: *drawing* (with its groups, layers and their ids as they were), *lfs*
-//! (the curve coloured by local feature size, with a legend), *medial* (medial polylines), *samples*. Widths and
+//! Inkscape layer of its own, from the bottom up: *band* (capsules that hold the medial axis), *drawing* (with its groups, layers and
+//! their ids as they were), *lfs* (the curve coloured by local feature size, with a legend), *medial* (medial polylines), *samples*. Widths and
 //! radii are shares of the diagonal, so that a stamp and a poster look alike. All strokes are dark enough for white
 //! paper.
 //!
@@ -15,6 +15,7 @@ use std::io::{self, Write};
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::geometry::Point;
+use feature_sampling::medial::cell::Capsule;
 
 use super::number::{Number, Readable, trimmed};
 use super::palette::{self, Scale};
@@ -35,6 +36,8 @@ pub struct Picture<'a> {
     pub medial: Option<&'a [PathRows<MedialRow>]>,
     /// Show these samples.
     pub samples: Option<&'a [PathRows<SampleRow>]>,
+    /// Show this band around the medial axis.
+    pub band: Option<&'a [Capsule<f64>]>,
 }
 
 impl Picture<'_> {
@@ -62,6 +65,9 @@ impl Picture<'_> {
             write!(page.out, r#" width="{}mm" height="{}mm""#, Number(width.0 / per_mm), Number(height.0 / per_mm))?;
         }
         writeln!(page.out, r#" viewBox="{x} {y} {width} {height}">"#)?;
+        if let Some(band) = self.band {
+            page.band_layer(band)?;
+        }
         if self.show_drawing {
             page.drawing_layer()?;
         }
@@ -178,6 +184,21 @@ impl Page<'_> {
             write!(self.out, " C{a} {b} {c}")?;
         }
         if closed { write!(self.out, " Z") } else { Ok(()) }
+    }
+
+    /// The band around the medial axis: strokes with round ends. Those too thin to be seen are made as wide as a hairline, and
+    /// rounded numbers are made up for by their width.
+    fn band_layer(&mut self, band: &[Capsule<f64>]) -> io::Result<()> {
+        let (hairline, grain) = (0.0004 * self.diagonal, 1e-5 * self.diagonal);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to what a number has")]
+        let decimals = (-grain.log10()).ceil().clamp(0.0, 15.0) as usize;
+        self.open_layer("band", r##"fill="none" stroke="#9ecae1" stroke-linecap="round""##)?;
+        for Capsule { axis, spread } in band {
+            let [from, to] = axis.map(|p| format!("{} {}", trimmed(p.x, decimals), trimmed(p.y, decimals)));
+            let width = trimmed((2.0 * (spread + grain)).max(hairline), decimals);
+            writeln!(self.out, r#"<path stroke-width="{width}" d="M{from} L{to}"/>"#)?;
+        }
+        self.close()
     }
 
     /// The curve in colours. Neighbouring stretches of one colour are one element: a picture of a thousand foot points
@@ -416,8 +437,14 @@ mod tests {
     #[test]
     fn frame_groups_and_ids_are_kept() {
         let drawing = drawing();
-        let text =
-            written(&Picture { drawing: &drawing, show_drawing: true, lfs: None, medial: None, samples: Some(&[]) });
+        let text = written(&Picture {
+            drawing: &drawing,
+            show_drawing: true,
+            lfs: None,
+            medial: None,
+            samples: Some(&[]),
+            band: None,
+        });
         assert!(text.contains(r#"width="10mm" height="5mm" viewBox="0 0 20 10""#), "frame: {text}");
         assert!(
             text.contains(r#"<g inkscape:groupmode="layer" id="outer" inkscape:label="a &lt;b&gt;">"#),
@@ -432,16 +459,28 @@ mod tests {
     #[test]
     fn colours_and_legend() {
         let drawing = drawing();
-        let row = |t, lfs| LfsRow { path: 0, segment: 0, t, x: 1.0, y: 10.0 * t, lfs };
+        let row = |t, lfs| LfsRow { path: 0, segment: 0, t, x: 1.0, y: 10.0 * t, lfs, bounds: None };
         let rows =
             [PathRows { closed: false, rows: vec![row(0.0, 1.0), row(0.5, 1.0), row(0.75, 100.0), row(1.0, 100.0)] }];
-        let text =
-            written(&Picture { drawing: &drawing, show_drawing: false, lfs: Some(&rows), medial: None, samples: None });
+        let text = written(&Picture {
+            drawing: &drawing,
+            show_drawing: false,
+            lfs: Some(&rows),
+            medial: None,
+            samples: None,
+            band: None,
+        });
         assert_eq!(text.matches("<path").count(), 3, "one colour, one between, one colour: {text}");
         assert!(text.contains("<text") && text.contains(">100</text>"), "a legend: {text}");
         let none = [PathRows { closed: false, rows: vec![row(0.0, f64::INFINITY), row(1.0, f64::INFINITY)] }];
-        let text =
-            written(&Picture { drawing: &drawing, show_drawing: false, lfs: Some(&none), medial: None, samples: None });
+        let text = written(&Picture {
+            drawing: &drawing,
+            show_drawing: false,
+            lfs: Some(&none),
+            medial: None,
+            samples: None,
+            band: None,
+        });
         assert!(text.contains("no medial axis"), "says so: {text}");
     }
 }

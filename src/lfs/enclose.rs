@@ -3,7 +3,7 @@
 //! Both are branch and bound over the cells of a [`Band`], with no bound known beforehand. A *goal* is the number that is to be
 //! proved as a lower bound. It starts a little above an estimate, where it cannot be proved if the estimate is right, and falls to
 //! (1−share)·U as soon as a cell shows the upper bound U. Cells that are discharged for a goal are discharged for all smaller ones, so none is
-//! looked at twice. If everything is discharged and nothing was found, the estimate was too small: the goal doubles.
+//! looked at twice. If everything is discharged, the estimate was too small: the goal rises to (1−share)·U, or doubles.
 //!
 //! **lfs** on a disk around a point: cells are discharged as in [`super::bound`]. What cannot be divided any more bounds lfs by what is
 //! known of it. **The reach**, inf lfs, is also the infimum of the radii r(f, d): with m = f + r d, |p − m| ≥ r for every p ∈ C since
@@ -56,12 +56,16 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
         let most = self.scene().curve.diagonal.clone().twice();
         let mut steps = precision.steps;
         let mut goal = start(estimate, &precision.share, &most);
+        let mut known = LfsBounds { lower: S::zero(), upper: S::infinity() };
         loop {
             let bounds = self.lfs_below(p, h, goal.clone(), precision, &mut steps, open)?;
-            if bounds.upper.is_finite() || goal >= most || bounds.lower < goal {
-                return Ok(bounds);
+            known.upper = known.upper.min(bounds.upper);
+            let reached = bounds.lower >= goal;
+            known.lower = known.lower.max(bounds.lower);
+            match higher(&known.lower, &known.upper, &goal, &precision.share, &most) {
+                Some(next) if reached => goal = next,
+                _ => return Ok(known),
             }
-            goal = goal.twice().min(most.clone());
         }
     }
 
@@ -96,7 +100,8 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
                 }
             }
             let [extent, movable] = self.extent(index, &goal);
-            let fine = goal.clone() * &precision.share.clone().mul_pow2(-3);
+            // Nothing is gained beyond a part of the width, or of the disk around p.
+            let fine = (goal.clone() * &precision.share.clone().mul_pow2(-3)).max(h.clone().mul_pow2(-2));
             let enough = spent || upper <= precision.least || extent <= fine || movable <= fine.mul_pow2(-4);
             match if enough { None } else { self.divide(index) } {
                 Some([a, b]) => {
@@ -132,12 +137,18 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
         let most = self.scene().curve.diagonal.clone().twice();
         let mut steps = precision.steps;
         let mut goal = start(estimate, &precision.share, &most);
+        let mut known = ReachBounds { lower: S::zero(), upper: S::infinity(), cell: None };
         loop {
             let bounds = self.reach_below(goal.clone(), precision, &mut steps, open)?;
-            if bounds.upper.is_finite() || goal >= most || bounds.lower < goal {
-                return Ok(bounds);
+            if bounds.upper < known.upper {
+                (known.upper, known.cell) = (bounds.upper, bounds.cell);
             }
-            goal = goal.twice().min(most.clone());
+            let reached = bounds.lower >= goal;
+            known.lower = known.lower.max(bounds.lower);
+            match higher(&known.lower, &known.upper, &goal, &precision.share, &most) {
+                Some(next) if reached => goal = next,
+                _ => return Ok(known),
+            }
         }
     }
 
@@ -246,6 +257,16 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
 fn start<S: Directed>(estimate: &S, share: &S, most: &S) -> S {
     let goal = estimate.clone() * &(S::one() + share);
     if goal > S::zero() && goal < *most { goal } else { most.clone() }
+}
+
+/// The next goal where one was reached and bounds are still too far apart.
+fn higher<S: Directed>(lower: &S, upper: &S, goal: &S, share: &S, most: &S) -> Option<S> {
+    // Below the upper bound by the share: if that is reached, it is narrow enough.
+    let enough = upper.clone() * &(S::one() - share);
+    if *lower >= enough || goal >= most {
+        return None;
+    }
+    Some(if upper.is_finite() { enough.min(most.clone()) } else { goal.clone().twice().min(most.clone()) })
 }
 
 fn pop(open: &mut impl Store<u32>) -> Option<u32> {

@@ -6,6 +6,7 @@ use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::geometry::Point;
 use feature_sampling::medial::Resolution;
 use feature_sampling::model::{CurveModel, MedialModel};
+use feature_sampling::prover::Prover;
 use feature_sampling::sampling::{Condition, SamplingOptions};
 
 const CELLS: usize = 200_000;
@@ -102,4 +103,44 @@ fn a_budget_of_no_cells_is_unknown() {
     let model = model(&[(true, ellipse(3.0, 1.0))]);
     let samples = sampled(&model, 0.495);
     assert_eq!(model.certify(&samples, &Claim::new(0.5), 10, true).verdict, Verdict::Unknown);
+}
+
+/// The effective ε lies between its bounds: what is proved above it is refuted 2 % below it.
+#[test]
+fn the_effective_epsilon_is_bracketed() {
+    let model = model(&[(true, ellipse(3.0, 1.0))]);
+    for aim in [0.3, 0.495, 0.66] {
+        let samples = sampled(&model, aim);
+        let claim = Claim::new(0.5);
+        let found = Prover::new(&model, CELLS).effective(&samples, &claim, &5e-3);
+        assert!(found.lower <= found.upper && found.upper <= found.lower * 1.01, "{aim}: {found:?}");
+        // Samples are spread evenly: they may do better than was aimed at, not worse.
+        assert!(found.lower <= aim, "{aim}: {found:?}");
+        assert_eq!(verdict(&model, &samples, found.upper), Verdict::Proved, "{aim}: {found:?}");
+        assert!(matches!(verdict(&model, &samples, 0.98 * found.lower), Verdict::Refuted(_)), "{aim}: {found:?}");
+    }
+}
+
+/// What was proved of a gap stays proved when samples are added elsewhere, and is not looked at again.
+#[test]
+fn known_gaps_are_taken_over() {
+    let model = model(&[(true, ellipse(3.0, 1.0))]);
+    let samples = sampled(&model, 0.495);
+    let mut fewer = samples.clone();
+    fewer.remove(5);
+    let claim = Claim::new(0.5);
+    let mut prover = Prover::new(&model, CELLS);
+    let first = prover.judge(&fewer, &claim, false);
+    assert!(matches!(first.verdict, Verdict::Refuted(_)));
+    let mut known = first.pieces;
+    known.iter_mut().filter(|p| p.sample >= 5).for_each(|p| p.sample += 1);
+    let cells = prover.cells().len();
+    let again = prover.judge_again(&samples, &claim, false, &known);
+    assert_eq!(again.verdict, Verdict::Proved);
+    assert!(prover.cells().len() < cells + cells / 4, "{cells} and {}", prover.cells().len());
+    let own = |segment: u32| again.pieces.iter().filter(move |p| p.segment == segment);
+    for segment in 0..4 {
+        let end = own(segment).fold(0.0, |end, p| if p.span[0] == end { p.span[1] } else { f64::NAN });
+        assert_eq!(end, 1.0, "pieces cover segment {segment}");
+    }
 }

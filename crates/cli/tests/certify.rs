@@ -133,3 +133,42 @@ fn certified_samples_are_proved_and_hardly_more() {
     place.fails("sample ellipse.svg --certified --slack 2", 2, &["slack"]);
     place.fails("sample ellipse.svg --certified --max-cells 3 --quiet", 1, &["could not be proved"]);
 }
+
+#[test]
+fn lfs_comes_with_bounds() {
+    let place = ellipse();
+    let table = place.ok("lfs ellipse.svg --certified --width 0.05 --quiet");
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("path,segment,t,x,y,lfs,lower,upper"));
+    let mut rows = 0;
+    for line in lines {
+        let numbers: Vec<f64> = line.split(',').map(|v| v.parse().expect("a number")).collect();
+        let [lfs, lower, upper] = [5, 6, 7].map(|i| numbers[i]);
+        assert!(lower <= lfs * 1.002 && lfs * 0.998 <= upper, "{line}");
+        assert!(upper - lower <= 0.05 * upper, "{line}");
+        rows += 1;
+    }
+    assert!(rows > 20, "{rows}");
+    // A point beside the curve has wider bounds, by its distance.
+    place.put("points.txt", "5 2\n5.5 2\n");
+    let beside = place.ok("lfs ellipse.svg --certified --at points.txt --quiet");
+    let bounds: Vec<Vec<f64>> =
+        beside.lines().skip(1).map(|l| l.split(',').skip(6).map(|v| v.parse().expect("a number")).collect()).collect();
+    assert!(bounds[1][0] <= bounds[0][0] - 0.4 && bounds[1][1] >= bounds[0][1] + 0.4, "{bounds:?}");
+    place.ok("lfs ellipse.svg --certified --quiet -o band.svg");
+    assert!(place.get("band.svg").contains(r#"inkscape:label="band""#));
+    let ran = place.run("lfs ellipse.svg --certified");
+    assert!(ran.err.contains("reach from"), "{}", ran.err);
+    place.fails("lfs ellipse.svg --width 0.1", 2, &["--certified"]);
+    place.fails("lfs ellipse.svg --certified --width 0", 2, &["width"]);
+}
+
+#[test]
+fn the_effective_epsilon_is_bracketed() {
+    let place = ellipse();
+    let answer = place.ok("certify ellipse.svg --samples samples.csv --epsilon 0.3 --effective --quiet");
+    let numbers: Vec<f64> = answer.split_whitespace().filter_map(|w| w.parse().ok()).collect();
+    let [lower, upper] = numbers[..] else { panic!("{answer}") };
+    assert!(lower <= upper && upper <= 1.01 * lower && upper <= 0.5, "{answer}");
+    place.fails("certify ellipse.svg --epsilon 0.5 --effective -o c.json", 2, &["--effective"]);
+}

@@ -96,7 +96,7 @@ impl<'m, S: Directed> Prover<'m, S> {
     /// claim allow; its ε is the first one that is asked about.
     pub fn effective(&mut self, samples: &[Placed<S>], claim: &Claim<S>, tolerance: &S) -> EffectiveEpsilon<S> {
         // Nothing is gained from pieces so small that only a part of the tolerance depends on them.
-        let finest = claim.finest.clone().max(tolerance.clone().mul_pow2(-3));
+        let finest = claim.finest.clone().max(tolerance.clone().half());
         let decide = |epsilon: &S| -> Result<Decision<S>, BufferFull> {
             let claim = Claim { epsilon: epsilon.clone(), finest: finest.clone(), ..claim.clone() };
             Ok(match self.judge(samples, &claim, true).verdict {

@@ -102,7 +102,7 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
             let [extent, movable] = self.extent(index, &goal);
             // Nothing is gained beyond a part of the width, or of the disk around p.
             let fine = (goal.clone() * &precision.share.clone().mul_pow2(-3)).max(h.clone().mul_pow2(-2));
-            let enough = spent || upper <= precision.least || extent <= fine || movable <= fine.mul_pow2(-4);
+            let enough = spent || upper <= precision.least || extent <= fine || movable <= fine.mul_pow2(-10);
             match if enough { None } else { self.divide(index) } {
                 Some([a, b]) => {
                     open.push(a)?;

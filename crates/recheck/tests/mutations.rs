@@ -323,7 +323,7 @@ fn nothing_false_is_accepted() {
     survey(100, 1);
 }
 
-/// Ten minutes: `cargo test --release -p fsample-recheck --test mutations -- --ignored`.
+/// `cargo test --release -p fsample-recheck --test mutations -- --ignored`.
 #[test]
 #[ignore = "long: 10,000 certificates"]
 fn nothing_false_is_accepted_of_ten_thousand() {

@@ -93,7 +93,8 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
             let far = self.cell(index).map_or_else(S::infinity, |cell| cell.farthest(p));
             let far = (far + &margin) * &outward;
             if far < upper {
-                goal = goal.min(far.clone() * &(S::one() - &precision.share));
+                // An eighth of the width is for cells that are small enough not to be divided.
+                goal = goal.min(far.clone() * &(S::one() - &(precision.share.clone() * &S::ratio(7, 8))));
                 upper = far;
                 if self.discharge(index, p, h, &goal) == Discharge::Done {
                     continue;
@@ -101,8 +102,8 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
             }
             let [extent, movable] = self.extent(index, &goal);
             // Nothing is gained beyond a part of the width, or of the disk around p.
-            let fine = (goal.clone() * &precision.share.clone().mul_pow2(-3)).max(h.clone().mul_pow2(-2));
-            let enough = spent || upper <= precision.least || extent <= fine || movable <= fine.mul_pow2(-10);
+            let fine = (goal.clone() * &precision.share.clone().mul_pow2(-4)).max(h.clone().mul_pow2(-2));
+            let enough = spent || upper <= precision.least || extent <= fine || movable <= fine.mul_pow2(-4);
             match if enough { None } else { self.divide(index) } {
                 Some([a, b]) => {
                     open.push(a)?;

@@ -19,7 +19,7 @@ use crate::input::GivenSample;
 const ROUNDS: usize = 4;
 
 /// The effective ε is bounded to this share, if it can be.
-const EFFECTIVE: f64 = 5e-3;
+const EFFECTIVE: f64 = 1e-2;
 
 /// A point where the condition fails.
 #[derive(Clone, Copy, Debug)]

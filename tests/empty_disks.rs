@@ -5,7 +5,7 @@
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::door::DoorOptions;
-use feature_sampling::curve::{CurveParam, ideal};
+use feature_sampling::curve::{CurveParam, EndId, ideal};
 use feature_sampling::geometry::{Point, Vector};
 use feature_sampling::medial::cell::FootSpan;
 use feature_sampling::medial::clear::{Scene, Stretch, clears, reaches};
@@ -125,4 +125,66 @@ fn upper_bounds_are_above_plain_radii() {
         }
     }
     assert!(finite > 300, "{finite} say something");
+}
+
+/// Fans of directions at open ends: pieces of the end's own stroke, where all depends on what turns away first, and any others.
+#[test]
+fn fans_agree_with_plain_points() {
+    let mut random = Random(3);
+    // Own segment and others: how often a disk was proved empty, and was plainly not.
+    let mut counts = [[0_u32; 2]; 2];
+    for _ in 0..200 {
+        let model = strokes(&mut random);
+        let curve = model.curve();
+        let mut coefficients = Vec::new();
+        ideal::coefficients(&curve, &mut coefficients).expect("a vector");
+        let scene = Scene { curve: &curve, ideal: &coefficients };
+        for _ in 0..60 {
+            let (segment, side) = [(0, 0), (2, 1), (3, 0), (3, 1)][random.below(4) as usize];
+            let end = EndId::new(segment, side);
+            let left = random.below(2) == 0;
+            let scale = [1.0, 0.1, 1e-2, 1e-4][random.below(4) as usize];
+            let span = random.span().map(|l| scale * l);
+            let Some(feet) = (FootSpan::Fan { end, other: end, left, span }).feet(&scene) else { continue };
+            let own = random.below(2) == 0;
+            let its = if own { segment } else { random.below(4) };
+            let (t, length) = (if side == 0 { 0.0 } else { 1.0 }, 10.0_f64.powf(-4.0 * random.unit()));
+            let piece = match random.below(2) {
+                // From the end on, or somewhere.
+                0 if own => Stretch { segment: its, span: if side == 0 { [0.0, length] } else { [1.0 - length, 1.0] } },
+                _ => Stretch { segment: its, span: random.span() },
+            };
+            let stroke = curve.segment(segment).expect("a segment");
+            // Radii about that of curvature, and others.
+            let bent = {
+                let d = stroke.power.derivative(&t);
+                d.norm_sq() * d.norm() / d.cross(&stroke.power.second_derivative(&t)).abs()
+            };
+            let radius =
+                if random.below(2) == 0 { bent * (0.7 + random.unit()) } else { 0.02 * 1000.0_f64.powf(random.unit()) };
+            let proved = clears(&scene, &feet, &piece, &radius);
+            let tangent = stroke.tangent(&t);
+            let u = if side == 0 { tangent } else { tangent.opposite() };
+            let first = if left { u.left() } else { u.left().opposite() };
+            let f = stroke.point(&t);
+            let mut depth = f64::NEG_INFINITY;
+            for i in 0..=8 {
+                let l = span[0] + (span[1] - span[0]) * f64::from(i) / 8.0;
+                let d = first.scaled(&(1.0 - l)).plus_scaled(&-l, &u).unit().expect("a direction");
+                let centre = f.plus_scaled(&radius, &d);
+                for k in 0..=60 {
+                    let q = piece.span[0] + (piece.span[1] - piece.span[0]) * f64::from(k) / 60.0;
+                    depth = depth.max(radius - curve.segment(its).expect("a segment").point(&q).distance(&centre));
+                }
+            }
+            let inside = depth > 1e-9 * (radius + 10.0);
+            assert!(!(proved && inside), "{end:?} {left} {span:?} {piece:?} {radius}: {depth}");
+            let form = usize::from(its != segment);
+            counts[form][0] += u32::from(proved);
+            counts[form][1] += u32::from(inside);
+        }
+    }
+    for [proved, inside] in counts {
+        assert!(proved > 100 && inside > 100, "both happen, often: {counts:?}");
+    }
 }

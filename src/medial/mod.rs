@@ -11,7 +11,7 @@ pub mod disk;
 pub mod foot;
 pub mod foot_set;
 mod pencil;
-mod radii;
+pub mod radii;
 pub mod walk;
 
 pub use disk::{Guard, TangentDisk, tangent_disk, tangent_disk_beside};

@@ -389,6 +389,7 @@ pub const TABLE: &[Entry] = &[
     encloses("prover::Prover::effective", "or says that it is not known"),
     exact("prover::Prover::into_cells", "no computation"),
     encloses("prover::Prover::judge", "or says that it is not known"),
+    encloses("prover::Prover::judge_again", "or says that it is not known"),
     encloses("prover::Prover::lfs", "to the width that is asked for, or as far as the steps reach"),
     exact("prover::Prover::new", "nothing is known yet"),
     encloses("prover::Prover::reach", "to the width that is asked for, or as far as the steps reach"),

@@ -126,8 +126,8 @@ mod tests {
 
     use super::*;
 
-    /// A path that repeats a stroke and turns off behind it: the joint there starts with an end of the repetition, which is no obstacle,
-    /// and has no other end before the one behind the corner.
+    /// A stroke that goes on smoothly, and a path that repeats it and turns off instead: the joint there starts with an end of the
+    /// repetition, which is no obstacle, and the stroke's own end belongs to another joint.
     #[test]
     fn a_joint_behind_a_repetition_is_required() {
         let cubic = |p: [(f64, f64); 4]| {
@@ -135,15 +135,16 @@ mod tests {
             Cubic::new(a, b, c, d)
         };
         let stroke = cubic([(0.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 0.0)]);
+        let onward = cubic([(3.0, 0.0), (4.0, -1.0), (5.0, -1.0), (6.0, 0.0)]);
         let behind = cubic([(3.0, 0.0), (3.0, 1.0), (4.0, 2.0), (5.0, 2.0)]);
-        let paths: [(bool, &[Cubic<f64>]); 2] = [(false, &[stroke.clone()]), (false, &[stroke, behind])];
+        let paths: [(bool, &[Cubic<f64>]); 2] = [(false, &[stroke.clone(), onward]), (false, &[stroke, behind])];
         let model = CurveModel::new(&paths, &DoorOptions::default()).expect("a curve");
         let curve = model.curve();
-        assert!(curve.segments[1].twin.is_some(), "it is a repetition");
-        assert_eq!(curve.segments[2].end(0).kind, JointKind::Corner);
+        assert!(curve.segments[2].twin.is_some(), "it is a repetition");
+        assert_eq!(curve.segments[3].end(0).kind, JointKind::Corner);
         let required = Required::new(&Scene::new(curve));
         assert!(required.points.contains(&Point::new(3.0, 0.0)), "{:?}", required.points);
-        let of_joint = |fan: &&(u32, u32, bool)| fan.0 == 4 || fan.1 == 4;
+        let of_joint = |fan: &&(u32, u32, bool)| fan.0 == 6 || fan.1 == 6;
         assert!(required.fans.iter().any(|fan| of_joint(&fan)), "{:?}", required.fans);
     }
 }

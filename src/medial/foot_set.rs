@@ -109,7 +109,7 @@ mod tests {
         let stroke = cubic([(0.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 0.0)]);
         let onward = cubic([(3.0, 0.0), (4.0, -1.0), (5.0, -1.0), (6.0, 0.0)]);
         let behind = cubic([(3.0, 0.0), (3.0, 1.0), (4.0, 2.0), (5.0, 2.0)]);
-        let paths: [(bool, &[Cubic<f64>]); 2] = [(false, &[stroke.clone(), onward]), (false, &[stroke, behind])];
+        let paths: [(bool, &[Cubic<f64>]); 2] = [(false, &[stroke, onward]), (false, &[stroke, behind])];
         let model = CurveModel::new(&paths, &DoorOptions::default()).expect("a curve");
         let curve = model.curve();
         assert!(curve.segments[2].twin.is_some(), "it is a repetition");

@@ -130,6 +130,30 @@ impl<T, const N: usize> Store<T> for arrayvec::ArrayVec<T, N> {
     }
 }
 
+/// A [`Store`] that takes everything and keeps nothing: for results that the caller has no use for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Forget;
+
+impl<T> Store<T> for Forget {
+    #[inline]
+    fn push(&mut self, _: T) -> Result<(), BufferFull> {
+        Ok(())
+    }
+
+    #[inline]
+    fn items(&self) -> &[T] {
+        &[]
+    }
+
+    #[inline]
+    fn items_mut(&mut self) -> &mut [T] {
+        &mut []
+    }
+
+    #[inline]
+    fn shorten(&mut self, _: usize) {}
+}
+
 #[cfg(feature = "alloc")]
 impl<T> Store<T> for Vec<T> {
     fn push(&mut self, item: T) -> Result<(), BufferFull> {
@@ -153,6 +177,13 @@ impl<T> Store<T> for Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nothing_is_kept_where_nothing_is_wanted() {
+        let mut store = Forget;
+        assert_eq!(Store::push(&mut store, 7), Ok(()));
+        assert_eq!(Store::<i32>::items(&store), []);
+    }
 
     #[test]
     fn a_full_slice_says_so() {

@@ -8,7 +8,7 @@ use crate::buffer::{BufferFull, Store};
 use crate::certificate::{Claim, Neighbourhood, Piece, Placed, Step, Verdict};
 use crate::curve::contact::{self, Contact};
 use crate::curve::door::{self, CurveBuffers, CurveError, DoorOptions, DoorReport, Entered, PathInput};
-use crate::curve::{Arc, Curve, CurveParam, Path, Segment};
+use crate::curve::{Arc, Curve, CurveParam, Path, Segment, Source};
 use crate::geometry::Point;
 use crate::geometry::hierarchy::{Item, Node};
 use crate::lfs::{self, LfsIndex};
@@ -19,7 +19,8 @@ use crate::sampling::{self, Sample, SamplingError, SamplingOptions};
 use crate::scalar::{Directed, Scalar};
 use alloc::vec::Vec;
 
-type Buffers<S> = CurveBuffers<Vec<Segment<S>>, Vec<Path>, Vec<Arc<S>>, Vec<Node<S>>, Vec<Item<S>>, Vec<u32>>;
+type Buffers<S> =
+    CurveBuffers<Vec<Segment<S>>, Vec<Source<S>>, Vec<Path>, Vec<Arc<S>>, Vec<Node<S>>, Vec<Item<S>>, Vec<u32>>;
 
 /// A curve C in vectors.
 #[derive(Debug)]
@@ -37,6 +38,7 @@ impl<S: Scalar> CurveModel<S> {
     pub fn new(paths: &[(bool, &[Cubic<S>])], options: &DoorOptions<S>) -> Result<Self, CurveError> {
         let mut buffers: Buffers<S> = CurveBuffers {
             segments: Vec::new(),
+            sources: Vec::new(),
             paths: Vec::new(),
             arcs: Vec::new(),
             nodes: Vec::new(),
@@ -78,9 +80,11 @@ impl<S: Scalar> CurveModel<S> {
     /// Translates a place on C back to the drawing: path, cubic of that path, parameter of that cubic.
     pub fn source(&self, at: &CurveParam<S>) -> (u32, u32, S) {
         let curve = self.curve();
-        let Some(s) = curve.segment(at.segment) else { return (0, 0, at.t.clone()) };
-        let path = curve.paths.get(s.path as usize).map_or(0, |p| p.source);
-        (path, s.source.segment, s.source.parameter(&at.t))
+        let Some((segment, source)) = curve.segment(at.segment).zip(curve.source(at.segment)) else {
+            return (0, 0, at.t.clone());
+        };
+        let path = curve.paths.get(segment.path as usize).map_or(0, |p| p.source);
+        (path, source.segment, source.parameter(&at.t))
     }
 
     /// The medial points of one path, polylines numbered from 0.

@@ -10,7 +10,7 @@ use common::{Stroke, cubic, curve_model, ellipse, open, rounded, stick};
 use feature_sampling::buffer::{BufferFull, SliceStore, Store};
 use feature_sampling::curve::contact::{self, Contact};
 use feature_sampling::curve::door::{self, CurveBuffers, CurveError, DoorOptions, PathInput};
-use feature_sampling::curve::{Arc, Path, Segment};
+use feature_sampling::curve::{Arc, Path, Segment, Source};
 use feature_sampling::geometry::hierarchy::{Item, Node, nodes_for};
 use feature_sampling::lfs::{self, LfsIndex, items_for};
 use feature_sampling::medial::{self, MedialPoint, Resolution};
@@ -59,8 +59,8 @@ impl From<SamplingError> for Failure {
 }
 
 /// All stores of the chain.
-struct Stores<Sg, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> {
-    curve: CurveBuffers<Sg, Pa, Ar, No, It, Or>,
+struct Stores<Sg, So, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> {
+    curve: CurveBuffers<Sg, So, Pa, Ar, No, It, Or>,
     contacts: Co,
     medial: Me,
     medial_nodes: Mn,
@@ -69,7 +69,7 @@ struct Stores<Sg, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> {
     scratch: Sc,
 }
 
-impl<Sg, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> Stores<Sg, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> {
+impl<Sg, So, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> Stores<Sg, So, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> {
     /// Runs the chain; afterwards `medial` and `samples` hold the results.
     fn run<S: Scalar>(
         &mut self,
@@ -79,6 +79,7 @@ impl<Sg, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> Stores<Sg, Pa, Ar, No, It, 
     ) -> Result<(), Failure>
     where
         Sg: Store<Segment<S>>,
+        So: Store<Source<S>>,
         Pa: Store<Path>,
         Ar: Store<Arc<S>>,
         No: Store<Node<S>>,
@@ -120,6 +121,7 @@ fn in_slices<S: Scalar + Copy + Default, R>(
     look: impl FnOnce(&[MedialPoint<S>], &[Sample<S>]) -> R,
 ) -> Result<R, Failure> {
     let mut segments = [Segment::<S>::default(); ROOM.segments];
+    let mut sources = [Source::<S>::default(); ROOM.segments];
     let mut path_list = [Path::default(); ROOM.paths];
     let mut arcs = [Arc::<S>::default(); ROOM.arcs];
     let mut nodes = [Node::<S>::default(); nodes_for(ROOM.arcs)];
@@ -134,6 +136,7 @@ fn in_slices<S: Scalar + Copy + Default, R>(
     let mut stores = Stores {
         curve: CurveBuffers {
             segments: SliceStore::new(&mut segments[..room.segments]),
+            sources: SliceStore::new(&mut sources[..room.segments]),
             paths: SliceStore::new(&mut path_list[..room.paths]),
             arcs: SliceStore::new(&mut arcs[..room.arcs]),
             nodes: SliceStore::new(&mut nodes[..nodes_for(room.arcs)]),
@@ -208,6 +211,7 @@ fn array_vectors_equal_vectors() {
         let mut stores = Stores {
             curve: CurveBuffers {
                 segments: ArrayVec::<Segment<f32>, 16>::new(),
+                sources: ArrayVec::<Source<f32>, 16>::new(),
                 paths: ArrayVec::<Path, 4>::new(),
                 arcs: ArrayVec::<Arc<f32>, 160>::new(),
                 nodes: ArrayVec::<Node<f32>, 320>::new(),

@@ -3,7 +3,8 @@
 //! Real drawings close with lines of 1e-16, repeat a stroke, kink by 0.01° where they mean to be smooth, and hide cusps in
 //! cubics. [`door`] settles all of this once; everything behind it speaks of the C that it makes:
 //!
-//! * [`Segment`]s, each a cubic that knows its joints, its [`Source`] in the drawing and its arcs;
+//! * [`Segment`]s, each a cubic that knows its joints and its arcs; their [`Source`]s in the drawing stand in a list of their
+//!   own, which a program on a chip need not keep;
 //! * **joints** ([`joint`]): where ends meet, as circular lists of [`EndId`]s, each [`JointKind::Open`], `Smooth` or
 //!   `Corner`. Topology knows no distances: it is settled at the door and only followed afterwards;
 //! * [`Arc`]s ([`arc`]): pieces of monotone curvature with little turning, the leaves of one bounding hierarchy;
@@ -15,6 +16,7 @@ mod apart;
 pub mod arc;
 pub mod contact;
 pub mod door;
+pub mod given;
 pub mod ideal;
 pub mod joint;
 pub mod nearest;
@@ -25,6 +27,7 @@ use crate::geometry::hierarchy::{Hierarchy, Node};
 use crate::geometry::{Point, Vector};
 use crate::scalar::Scalar;
 pub use arc::Arc;
+use core::num::NonZeroU32;
 pub use joint::{EndId, JointEnd, JointKind};
 
 /// A place on the curve: a segment of C and a parameter in [0, 1] of it.
@@ -116,8 +119,6 @@ pub struct Segment<S> {
     pub power: PowerBasis<S>,
     /// Index into [`Curve::paths`].
     pub path: u32,
-    /// Where it comes from.
-    pub source: Source<S>,
     /// Its two ends: at t = 0 and at t = 1.
     pub ends: [JointEnd<S>; 2],
     /// First arc, and how many there are; none for a twin.
@@ -130,13 +131,28 @@ pub struct Segment<S> {
     pub loop_turn: S,
 }
 
-/// The segment that a repeated one coincides with.
+/// The segment that a repeated one coincides with, in one word, with or without an `Option` around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Twin {
+pub struct Twin(NonZeroU32);
+
+impl Twin {
+    /// The segment that stands for both (below 2^30: a curve has no more), and whether the two run in opposite directions.
+    #[inline]
+    pub(crate) const fn new(segment: u32, reversed: bool) -> Self {
+        Self(NonZeroU32::MIN.saturating_add(segment << 1 | reversed as u32))
+    }
+
     /// Index of the segment that stands for both.
-    pub segment: u32,
+    #[inline]
+    pub const fn segment(self) -> u32 {
+        (self.0.get() - 1) >> 1
+    }
+
     /// The two run in opposite directions.
-    pub reversed: bool,
+    #[inline]
+    pub const fn reversed(self) -> bool {
+        (self.0.get() - 1) & 1 == 1
+    }
 }
 
 /// A path of C: consecutive segments.
@@ -166,6 +182,8 @@ impl Path {
 pub struct Curve<'a, S> {
     /// All cubics, path by path.
     pub segments: &'a [Segment<S>],
+    /// Where each segment comes from in the drawing; empty where the program did not keep it.
+    pub sources: &'a [Source<S>],
     /// All paths.
     pub paths: &'a [Path],
     /// All arcs, segment by segment, by ascending parameter.
@@ -185,6 +203,12 @@ impl<'a, S: Scalar> Curve<'a, S> {
     #[inline]
     pub fn segment(&self, index: u32) -> Option<&'a Segment<S>> {
         self.segments.get(index as usize)
+    }
+
+    /// Where a segment comes from in the drawing; `None` also where that was not kept.
+    #[inline]
+    pub fn source(&self, index: u32) -> Option<&'a Source<S>> {
+        self.sources.get(index as usize)
     }
 
     /// The hierarchy over the arcs; its items are leaves, see [`Self::arcs_in`].

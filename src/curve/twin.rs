@@ -23,7 +23,7 @@ pub(super) fn mark<S: Scalar>(segments: &mut [Segment<S>], order: &mut [u32]) {
     for &i in order.iter() {
         let same = leader.and_then(|l| {
             let (x, y) = (segments.get(l as usize)?, segments.get(i as usize)?);
-            (compare(x, y) == Ordering::Equal).then(|| Twin { segment: l, reversed: backwards(x) != backwards(y) })
+            (compare(x, y) == Ordering::Equal).then(|| Twin::new(l, backwards(x) != backwards(y)))
         });
         match same {
             Some(twin) => {

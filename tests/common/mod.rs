@@ -199,7 +199,7 @@ pub(crate) fn place<S: Scalar>(model: &CurveModel<S>, path: usize, cubic: usize,
     let path = curve.paths.iter().find(|p| p.source as usize == path)?;
     let t = S::from_f64(t);
     (path.first..path.first + path.count).find_map(|i| {
-        let source = &curve.segment(i)?.source;
+        let source = curve.source(i)?;
         let here = source.segment as usize == cubic && t >= source.from && t <= source.to;
         here.then(|| CurveParam { segment: i, t: (t.clone() - &source.from) / &(source.to.clone() - &source.from) })
     })

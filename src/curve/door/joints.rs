@@ -131,8 +131,8 @@ impl<S: Scalar> Door<'_, S> {
     pub(super) fn follow_twins(&self, segments: &mut [Segment<S>]) {
         for i in 0..segments.len() {
             let Some(t) = segments.get(i).and_then(|s| s.twin) else { continue };
-            let Some(leader) = segments.get(t.segment as usize) else { continue };
-            let (cubic, ends) = if t.reversed {
+            let Some(leader) = segments.get(t.segment() as usize) else { continue };
+            let (cubic, ends) = if t.reversed() {
                 let [a, b] = leader.ends.clone();
                 (leader.cubic.reversed(), [b, a])
             } else {
@@ -149,7 +149,7 @@ impl<S: Scalar> Door<'_, S> {
 /// The segment that stands for a twin, and the end of it.
 fn obstacle_end<S>(segments: &[Segment<S>], e: EndId) -> EndId {
     match segments.get(e.segment() as usize).and_then(|s| s.twin) {
-        Some(t) => EndId::new(t.segment, if t.reversed { 1 - e.side() } else { e.side() }),
+        Some(t) => EndId::new(t.segment(), if t.reversed() { 1 - e.side() } else { e.side() }),
         None => e,
     }
 }

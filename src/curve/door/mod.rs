@@ -21,7 +21,8 @@ mod joints;
 mod paths;
 mod strands;
 
-use super::{Arc, Curve, Path, Segment, arc, twin};
+use super::given::Extent;
+use super::{Arc, Curve, Path, Segment, Source, arc, twin};
 use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};
 use crate::geometry::hierarchy::{self, Item, Node};
@@ -172,9 +173,12 @@ impl core::error::Error for CurveError {}
 
 /// The buffers that hold a curve. Each part is a [`Store`]: lent slices, or vectors.
 #[derive(Debug, Default)]
-pub struct CurveBuffers<Segments, Paths, Arcs, Nodes, Items, Order> {
+pub struct CurveBuffers<Segments, Sources, Paths, Arcs, Nodes, Items, Order> {
     /// One entry a segment: the cubics of the drawing, plus closing lines and cusps.
     pub segments: Segments,
+    /// One entry a segment: where it comes from. A [`Forget`](crate::buffer::Forget) where places on C need not be translated
+    /// back to the drawing.
+    pub sources: Sources,
     /// One entry a path.
     pub paths: Paths,
     /// About 4 to 12 entries a segment, as it bends.
@@ -204,22 +208,24 @@ pub struct Entered<S> {
 ///
 /// # Errors
 /// See [`CurveError`]. The buffers' contents are then of no use.
-pub fn enter<'a, S, Sg, Pa, Ar, No, It, Or>(
+pub fn enter<'a, S, Sg, So, Pa, Ar, No, It, Or>(
     paths: impl Iterator<Item = PathInput<'a, S>> + Clone,
     options: &DoorOptions<S>,
-    buffers: &mut CurveBuffers<Sg, Pa, Ar, No, It, Or>,
+    buffers: &mut CurveBuffers<Sg, So, Pa, Ar, No, It, Or>,
 ) -> Result<Entered<S>, CurveError>
 where
     S: Scalar + 'a,
     Sg: Store<Segment<S>>,
+    So: Store<Source<S>>,
     Pa: Store<Path>,
     Ar: Store<Arc<S>>,
     No: Store<Node<S>>,
     It: Store<Item<S>>,
     Or: Store<u32>,
 {
-    let CurveBuffers { segments, paths: out, arcs, nodes, items, order } = buffers;
+    let CurveBuffers { segments, sources, paths: out, arcs, nodes, items, order } = buffers;
     segments.shorten(0);
+    sources.shorten(0);
     out.shorten(0);
     arcs.shorten(0);
     items.shorten(0);
@@ -229,7 +235,7 @@ where
     let mut door = Door { options, diagonal: &diagonal, report: &mut report };
     for (index, path) in paths.enumerate() {
         let index = u32::try_from(index).map_err(|_| CurveError::TooMany)?;
-        door.take_path(index, &path, segments, out)?;
+        door.take_path(index, &path, segments, sources, out)?;
     }
     if segments.items().is_empty() {
         return Err(CurveError::NoExtent);
@@ -314,7 +320,7 @@ fn measure<'a, S: Scalar + 'a>(paths: impl Iterator<Item = PathInput<'a, S>>) ->
     if !any {
         return Err(CurveError::Empty);
     }
-    let diagonal = bounds.extent().norm();
+    let Extent { diagonal, noise } = Extent::of_box(&bounds);
     if diagonal.is_zero() {
         return Err(CurveError::NoExtent);
     }
@@ -323,8 +329,6 @@ fn measure<'a, S: Scalar + 'a>(paths: impl Iterator<Item = PathInput<'a, S>>) ->
     if !sixth.is_finite() || !(S::one() / &sixth).is_finite() {
         return Err(CurveError::OutOfRange);
     }
-    let largest = (bounds.min.x.abs().max(bounds.max.x.abs())).max(bounds.min.y.abs().max(bounds.max.y.abs()));
-    let noise = largest * &S::unit_roundoff() * &S::int(4);
     Ok((diagonal, noise))
 }
 
@@ -354,17 +358,19 @@ impl<S: Scalar> Door<'_, S> {
     }
 }
 
-impl<Sg, Pa, Ar, No, It, Or> CurveBuffers<Sg, Pa, Ar, No, It, Or> {
+impl<Sg, So, Pa, Ar, No, It, Or> CurveBuffers<Sg, So, Pa, Ar, No, It, Or> {
     /// The curve in these buffers, as [`enter`] made it.
     pub fn curve<'b, S: Scalar>(&'b self, entered: &'b Entered<S>) -> Curve<'b, S>
     where
         Sg: Store<Segment<S>>,
+        So: Store<Source<S>>,
         Pa: Store<Path>,
         Ar: Store<Arc<S>>,
         No: Store<Node<S>>,
     {
         Curve {
             segments: self.segments.items(),
+            sources: self.sources.items(),
             paths: self.paths.items(),
             arcs: self.arcs.items(),
             nodes: self.nodes.items(),

@@ -6,8 +6,8 @@
 use super::{CurveError, Door, PathInput, index_of};
 use crate::bezier::{Cubic, PowerBasis, critical};
 use crate::buffer::Store;
-use crate::curve::{EndId, JointEnd, JointKind, Path, Segment, Source};
-use crate::geometry::{Point, Vector};
+use crate::curve::{Path, Segment, Source, given};
+use crate::geometry::Point;
 use crate::polynomial::Polynomial;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -19,6 +19,7 @@ impl<S: Scalar> Door<'_, S> {
         index: u32,
         input: &PathInput<'_, S>,
         segments: &mut impl Store<Segment<S>>,
+        sources: &mut impl Store<Source<S>>,
         paths: &mut impl Store<Path>,
     ) -> Result<(), CurveError> {
         let first = segments.items().len();
@@ -49,7 +50,7 @@ impl<S: Scalar> Door<'_, S> {
                 cubic.move_end(0, end.clone());
             }
             last = Some(cubic.end().clone());
-            self.take_cubic(path, k, cubic, segments)?;
+            self.take_cubic(path, k, cubic, segments, sources)?;
         }
         let count = segments.items().len() - first;
         if count == 0 {
@@ -58,7 +59,7 @@ impl<S: Scalar> Door<'_, S> {
             }
             return Ok(());
         }
-        let closed = self.close(path, input, first, segments)?;
+        let closed = self.close(path, input, first, segments, sources)?;
         let count = index_of(segments.items().len() - first);
         paths.push(Path { source: index, first: index_of(first), count, closed })?;
         Ok(())
@@ -71,6 +72,7 @@ impl<S: Scalar> Door<'_, S> {
         input: &PathInput<'_, S>,
         first: usize,
         segments: &mut impl Store<Segment<S>>,
+        sources: &mut impl Store<Source<S>>,
     ) -> Result<bool, CurveError> {
         let Some((start, end)) = segments
             .items()
@@ -93,7 +95,7 @@ impl<S: Scalar> Door<'_, S> {
         }
         if input.closed {
             let k = index_of(input.cubics.len());
-            self.take_cubic(path, k, Cubic::line(end, start), segments)?;
+            self.take_cubic(path, k, Cubic::line(end, start), segments, sources)?;
             self.report.closing_lines += 1;
         }
         Ok(input.closed)
@@ -106,9 +108,10 @@ impl<S: Scalar> Door<'_, S> {
         source: u32,
         mut cubic: Cubic<S>,
         segments: &mut impl Store<Segment<S>>,
+        sources: &mut impl Store<Source<S>>,
     ) -> Result<(), CurveError> {
         if let Some(along) = self.straight(&cubic) {
-            return self.take_straight(path, source, &cubic, along, segments);
+            return self.take_straight(path, source, &cubic, along, segments, sources);
         }
         // Handles that rounding left over point anywhere, and would hook the curve at a scale below every floor.
         let left_over = self.nothing() * &S::int(100);
@@ -131,12 +134,13 @@ impl<S: Scalar> Door<'_, S> {
             // The derivative is nothing at the cusp: make it exactly so.
             left.points[2] = left.points[3].clone();
             right.points[1] = right.points[0].clone();
-            Self::add(path, Source { segment: source, from, to: t.clone(), handles: None }, left, segments)?;
+            let window = Source { segment: source, from, to: t.clone(), handles: None };
+            Self::add(path, window, left, segments, sources)?;
             self.report.cusps += 1;
             from = t;
             rest = right;
         }
-        Self::add(path, Source { segment: source, from, to: S::one(), handles: None }, rest, segments)
+        Self::add(path, Source { segment: source, from, to: S::one(), handles: None }, rest, segments, sources)
     }
 
     /// A cusp in the open interval (from, 1): so slow that the circle of curvature is below every floor.
@@ -156,24 +160,10 @@ impl<S: Scalar> Door<'_, S> {
         source: Source<S>,
         cubic: Cubic<S>,
         segments: &mut impl Store<Segment<S>>,
+        sources: &mut impl Store<Source<S>>,
     ) -> Result<(), CurveError> {
-        let index = index_of(segments.items().len());
-        let end = |side: usize| {
-            let (leaving, retracted) = leaving_direction(&cubic, side);
-            JointEnd { kind: JointKind::Open, next: EndId::new(index, side), leaving, retracted }
-        };
-        let segment = Segment {
-            ends: [end(0), end(1)],
-            power: cubic.power_basis(),
-            cubic,
-            path,
-            source,
-            arcs: (0, 0),
-            twin: None,
-            strand: u32::MAX,
-            loop_turn: S::zero(),
-        };
-        Ok(segments.push(segment)?)
+        segments.push(given::bare(index_of(segments.items().len()), path, cubic))?;
+        Ok(sources.push(source)?)
     }
 
     /// The positions of the control points of a straight cubic along its line, the first at 0.
@@ -208,6 +198,7 @@ impl<S: Scalar> Door<'_, S> {
         cubic: &Cubic<S>,
         along: [S; 4],
         segments: &mut impl Store<Segment<S>>,
+        sources: &mut impl Store<Source<S>>,
     ) -> Result<(), CurveError> {
         let turns = turning_points(&along);
         let short = self.short();
@@ -241,7 +232,7 @@ impl<S: Scalar> Door<'_, S> {
                 self.report.cusps += 1;
             }
             let piece = Source { segment: source, from, to: to.clone(), handles };
-            Self::add(path, piece, Cubic::line(start, end.clone()), segments)?;
+            Self::add(path, piece, Cubic::line(start, end.clone()), segments, sources)?;
             pieces += 1;
             start = end;
             from = to;
@@ -286,14 +277,4 @@ fn turning_points<S: Scalar>(x: &[S; 4]) -> ArrayVec<S, 2> {
 fn length_of_polygon<S: Scalar>(cubic: &Cubic<S>) -> S {
     let [a, b, c, d] = &cubic.points;
     a.distance(b) + &b.distance(c) + &c.distance(d)
-}
-
-/// The unit direction in which a cubic leaves an end, and whether its handle there is retracted.
-fn leaving_direction<S: Scalar>(cubic: &Cubic<S>, side: usize) -> (Vector<S>, bool) {
-    let [a, b, c, d] = if side == 0 { cubic.points.clone() } else { cubic.reversed().points };
-    if let Some(u) = b.minus(&a).unit() {
-        return (u, false);
-    }
-    let u = c.minus(&a).unit().or_else(|| d.minus(&a).unit());
-    (u.unwrap_or_else(|| Vector::new(S::one(), S::zero())), true)
 }

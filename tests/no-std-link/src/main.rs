@@ -6,7 +6,7 @@
 #![no_main]
 
 use feature_sampling::bezier::Cubic;
-use feature_sampling::buffer::SliceStore;
+use feature_sampling::buffer::{Forget, SliceStore};
 use feature_sampling::curve::contact::{self, Contact};
 use feature_sampling::curve::door::{self, CurveBuffers, DoorOptions, PathInput};
 use feature_sampling::curve::{Arc, Path, Segment};
@@ -44,6 +44,7 @@ fn circle() -> Result<usize, i32> {
     let (mut nodes, mut order) = ([Node::<f32>::default(); nodes_for(ARCS)], [0_u32; 8]);
     let mut buffers = CurveBuffers {
         segments: SliceStore::new(&mut segments),
+        sources: Forget,
         paths: SliceStore::new(&mut paths),
         arcs: SliceStore::new(&mut arcs),
         nodes: SliceStore::new(&mut nodes),

@@ -254,13 +254,11 @@ impl Engine<'_> {
                 let p = curve.paths[path];
                 // A cubic that was dropped as too short is where the next one starts, or the last one ends.
                 let own = |k: &u32| {
-                    curve.segment(*k).is_some_and(|c| {
-                        c.source.segment > s.segment || (c.source.segment == s.segment && c.source.to >= s.t)
-                    })
+                    curve.source(*k).is_some_and(|c| c.segment > s.segment || (c.segment == s.segment && c.to >= s.t))
                 };
                 let range = p.first..p.first + p.count;
                 let segment = range.clone().find(own).unwrap_or(range.end - 1);
-                let source = curve.segment(segment).map(|c| c.source).unwrap_or_default();
+                let source = curve.source(segment).copied().unwrap_or_default();
                 let t = if source.segment == s.segment {
                     source.place(&s.t)
                 } else if source.segment > s.segment {

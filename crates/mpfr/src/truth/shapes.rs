@@ -228,7 +228,7 @@ pub fn against_truth(folder: &Path) -> Result<Option<String>> {
             let (mut over, mut under, mut radii) = (0.0_f64, 0.0_f64, 0.0_f64);
             for row in &truth {
                 // One path without cusps: each segment is a whole cubic of the drawing.
-                let here = (0_u32..).zip(curve.segments).find(|(_, s)| s.source.segment == row.segment);
+                let here = (0_u32..).zip(curve.sources).find(|(_, s)| s.segment == row.segment);
                 let Some((segment, _)) = here else { continue };
                 let at = CurveParam { segment, t: row.t };
                 let Some(p) = curve.point(&at) else { continue };

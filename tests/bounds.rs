@@ -14,7 +14,7 @@ use feature_sampling::bezier::Cubic;
 use feature_sampling::geometry::{Point, distance_sq_to_segment};
 use feature_sampling::sampling::{Bound, Condition, Sample, SamplingError, SamplingOptions};
 use feature_sampling::scalar::Scalar;
-use fsample_checker::Checker;
+use fsample_checker::{Checker, Options};
 
 fn shapes() -> Vec<(String, Strokes)> {
     let wave = cubic([[0.0, 0.0], [20.0, 40.0], [50.0, -30.0], [70.0, 10.0]]);
@@ -168,6 +168,35 @@ fn chord_error_and_distances() {
         }
     }
     none(&faults);
+}
+
+/// Keeping d_min to an end, a corner or the seam must not leave a point without a sample within max(ε·lfs, d_min).
+#[test]
+fn the_last_gap_keeps_the_condition() {
+    // Corners of little turning: lfs falls to 0 at them from well above d_min.
+    let heart = vec![
+        cubic([[0.0, 0.0], [20.0, 25.0], [60.0, 5.0], [40.0, -20.0]]),
+        cubic([[40.0, -20.0], [30.0, -35.0], [10.0, -40.0], [0.0, -60.0]]),
+        cubic([[0.0, -60.0], [-10.0, -40.0], [-30.0, -35.0], [-40.0, -20.0]]),
+        cubic([[-40.0, -20.0], [-60.0, 5.0], [-20.0, 25.0], [0.0, 0.0]]),
+    ];
+    for (name, strokes) in shapes().into_iter().chain([("heart".to_owned(), vec![closed(heart)])]) {
+        let model = Model::new(&strokes, 1e-3);
+        let checker = Checker::new(&raw(&strokes));
+        for share in [0.002, 0.01, 0.03, 0.08, 0.2] {
+            let floor = share * *model.curve.diagonal();
+            for (epsilon, even) in [(0.5, false), (0.5, true), (0.95, false)] {
+                let options = SamplingOptions { min_distance: Some(floor), even, ..model.options(epsilon) };
+                let rules = Options { min_distance: Some(floor), ..Options::default() };
+                let report = checker.check(&model.judged(&model.sample(&options)), epsilon, rules);
+                let first = report.violations.first();
+                assert!(
+                    first.is_none(),
+                    "{name}, ε = {epsilon}, d_min = {share} of the diagonal, even {even}: {first:?}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

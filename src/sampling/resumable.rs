@@ -4,7 +4,8 @@
 //! A turn is the unit of work of [`super::step`]: at most one look-up of lfs (two where a bound from the last look-up turns
 //! out too small, and one more for the sample that is handed out), at most the chord error of one piece of a cubic, and at
 //! most eight evaluations of a cubic. A look-up visits each node of its index at most once. Finding the next corner of a path
-//! compares at most as many joints as the path has, once a run. Nothing else depends on the job.
+//! compares at most as many joints as the path has, once a run. Where a run ends, once more as many evaluations of a cubic as
+//! the scalar has digits may be needed, to keep d_min to the end. Nothing else depends on the job.
 //!
 //! The samples are those of [`sample_path`](super::sample_path) with [`SamplingOptions::even`] off, to the bit and in the
 //! same order: both turn the same [`Search`]. What needs to see a whole run at once is refused
@@ -171,7 +172,7 @@ impl<'a, S: Scalar, F: FeatureSize<S>> Resumable<'a, S, F> {
     fn last(&mut self, run: &Run<'a, S>) -> Step<S> {
         let Some(held) = self.held.take() else { return Step::Pending };
         let Some(min) = &self.options.min_distance else { return self.sample(run, held) };
-        match last_kept(run, min, &self.before, &held.point) {
+        match last_kept(run, min, &self.before, &held.pos) {
             LastKept::AsItIs => self.sample(run, held),
             LastKept::Moved(pos) => {
                 let point = run.point(&pos);

@@ -14,7 +14,6 @@ use super::step::{self, Caps, Next};
 use super::{Bound, Sample, SamplingError, SamplingOptions};
 use crate::buffer::Store;
 use crate::curve::contact::Contact;
-use crate::geometry::Point;
 use crate::lfs::FeatureSize;
 use crate::scalar::Scalar;
 
@@ -135,7 +134,7 @@ impl<S: Scalar, F: FeatureSize<S>, C: Fn(&Pos<S>) -> Option<S>> Spreader<'_, S, 
             Some(self.run.start.clone())
         };
         let (Some(last), Some(before)) = (out.items().last(), before) else { return };
-        match last_kept(self.run, min, &before, &last.point) {
+        match last_kept(self.run, min, &before, &self.position_of(last)) {
             LastKept::AsItIs => {}
             LastKept::Moved(pos) => {
                 if let Some(s) = out.items_mut().last_mut() {
@@ -176,18 +175,33 @@ pub(super) enum LastKept<S> {
     Dropped,
 }
 
-/// What becomes of the last inner sample, at the point `last`, with the sample at `before` before it.
-pub(super) fn last_kept<S: Scalar>(run: &Run<'_, S>, min: &S, before: &Pos<S>, last: &Point<S>) -> LastKept<S> {
+/// What becomes of the last inner sample, at `last`, with the sample at `before` before it.
+///
+/// It is moved to the last position that keeps d_min to the run's end: what lies behind that is within d_min of the end, and
+/// what lies before it is nearer to it than it was to `last`. Where even that comes too near to the sample before it, every
+/// point between has one of the two within d_min, and the sample goes.
+pub(super) fn last_kept<S: Scalar>(run: &Run<'_, S>, min: &S, before: &Pos<S>, last: &Pos<S>) -> LastKept<S> {
     let end = run.point(&run.end);
-    if last.distance(&end) >= *min {
+    let keeps = |p: &Pos<S>| run.point(p).distance(&end) >= *min;
+    if keeps(last) {
         return LastKept::AsItIs;
     }
-    // The middle of what is left, if both halves keep the distance; otherwise the sample goes.
-    let middle = run.between(before, &run.end, &S::one().half());
-    let p = run.point(&middle);
-    if p.distance(&run.point(before)) >= *min && p.distance(&end) >= *min {
-        LastKept::Moved(middle)
-    } else {
-        LastKept::Dropped
+    let half = S::one().half();
+    // A run may end where it starts: then its middle is tried.
+    let (mut low, mut high) = (before.clone(), last.clone());
+    if !keeps(&low) {
+        low = run.between(before, last, &half);
+        if !keeps(&low) {
+            return LastKept::Dropped;
+        }
     }
+    for _ in 0..S::BITS + 4 {
+        let middle = run.between(&low, &high, &half);
+        if keeps(&middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    if run.point(&low).distance(&run.point(before)) >= *min { LastKept::Moved(low) } else { LastKept::Dropped }
 }

@@ -12,8 +12,11 @@ pub mod foot;
 pub mod foot_set;
 mod pencil;
 pub mod radii;
+mod trail;
+pub mod uniform;
 pub mod walk;
 
 pub use disk::{Guard, TangentDisk, tangent_disk, tangent_disk_beside};
 pub use foot::{Foot, Side};
-pub use walk::{MedialPoint, Resolution, walk, walk_uniform};
+pub use uniform::walk_uniform;
+pub use walk::{MedialPoint, Resolution, walk};

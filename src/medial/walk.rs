@@ -5,9 +5,8 @@
 //! inner corner, a crossing or a touching the polyline runs into the curve itself (m = f). So consecutive medial points
 //! belong together, and a polyline breaks only where a tangent disk is unbounded.
 //!
-//! **Steps.** [`Resolution::Steps`] is the paper's parameter: N equal parameter steps a segment, here with every joint,
-//! inflection and extremum of curvature added, since branches of the medial axis end there. [`Resolution::Tolerance`]
-//! refines until the polyline is a good copy of the medial axis *for lfs*. A cell between two feet, with length h, is
+//! **Steps.** [`Resolution::Steps`] is the paper's parameter: N equal parameter steps a segment ([`super::uniform`]).
+//! [`Resolution::Tolerance`] refines until the polyline is a good copy of the medial axis *for lfs*. A cell between two feet, with length h, is
 //! halved while
 //!
 //! * a piece of curve that is not local to it comes nearer than h: anything the cell could have missed touches its disks
@@ -22,13 +21,14 @@
 //! The tolerance is relative to the radius, because |p − m| ≥ r for every p ∈ C: an error below τ·r is a relative error of
 //! lfs below τ. The criterion is an estimate; what it has proved is tested against truth (`docs/accuracy.md`).
 
-use super::disk::{Guard, TangentDisk, Touch, tangent_disk, tangent_disk_beside};
+use super::disk::tangent_disk;
 use super::foot::{Foot, Side};
+use super::trail::{Joint, Passage, Station, Trail};
+use super::uniform::walk_uniform;
 use crate::buffer::{BufferFull, Keep, Sink};
-use crate::curve::contact::{Contact, point_length, reach};
-use crate::curve::joint::clockwise_rank;
+use crate::curve::contact::{Contact, reach};
 use crate::curve::nearest::{Locality, nearest_beside, nearest_on_arc};
-use crate::curve::{Arc, Curve, CurveParam, EndId, JointKind};
+use crate::curve::{Arc, Curve, CurveParam, EndId};
 use crate::geometry::{Point, Vector, distance_sq_to_segment};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -90,62 +90,11 @@ pub fn walk<S: Scalar>(
     out: &mut impl Sink<MedialPoint<S>>,
 ) -> Result<u32, BufferFull> {
     match resolution {
-        Resolution::Steps(n) => walk_uniform(curve, path, *n, contacts, relevance, polyline, out),
-        Resolution::Tolerance(t) => Walker::new(curve, Within(t), contacts, relevance, polyline, out).path(path),
-    }
-}
-
-/// [`walk`] with [`Resolution::Steps`] alone: a program for a chip need not link the refinement.
-///
-/// # Errors
-/// [`BufferFull`] where `out` cannot take more.
-pub fn walk_uniform<S: Scalar>(
-    curve: &Curve<'_, S>,
-    path: u32,
-    steps: u32,
-    contacts: &[Contact<S>],
-    relevance: &S,
-    polyline: u32,
-    out: &mut impl Sink<MedialPoint<S>>,
-) -> Result<u32, BufferFull> {
-    Walker::new(curve, Uniform(steps), contacts, relevance, polyline, out).path(path)
-}
-
-/// A [`Resolution`] that is known when the program is built.
-trait Fineness<S> {
-    /// The tolerance, where there is one.
-    fn tolerance(&self) -> Option<&S>;
-    /// Parameter steps a segment; for fans where there is a tolerance nothing.
-    fn steps(&self) -> u32;
-}
-
-#[derive(Clone, Copy)]
-struct Uniform(u32);
-
-#[derive(Clone, Copy)]
-struct Within<'r, S>(&'r S);
-
-impl<S> Fineness<S> for Uniform {
-    #[inline]
-    fn tolerance(&self) -> Option<&S> {
-        None
-    }
-
-    #[inline]
-    fn steps(&self) -> u32 {
-        self.0
-    }
-}
-
-impl<S> Fineness<S> for Within<'_, S> {
-    #[inline]
-    fn tolerance(&self) -> Option<&S> {
-        Some(self.0)
-    }
-
-    #[inline]
-    fn steps(&self) -> u32 {
-        1
+        Resolution::Steps(n) => walk_uniform(curve, path, *n, contacts, polyline, out),
+        Resolution::Tolerance(t) => {
+            Walker { trail: Trail::new(curve, contacts, polyline), tolerance: t, relevance, floor: floor(curve), out }
+                .path(path)
+        }
     }
 }
 
@@ -170,20 +119,6 @@ pub fn relevance<S: Scalar>(curve: &Curve<'_, S>) -> S {
     least + curve.diagonal
 }
 
-/// A foot that has been looked at.
-#[derive(Clone, Debug)]
-struct Station<S> {
-    at: CurveParam<S>,
-    foot: Point<S>,
-    direction: Vector<S>,
-    side: Side,
-    /// Finite, or there is no medial point.
-    radius: S,
-    centre: Point<S>,
-    /// What bounds the disk, and the point there.
-    touch: Option<(Touch<S>, Point<S>)>,
-}
-
 /// A station at the far end of a cell that is still to be split or accepted.
 struct Pending<S> {
     station: Station<S>,
@@ -198,54 +133,25 @@ type Strokes<S> = ArrayVec<Locality<S>, 16>;
 /// Halvings of a cell: 2^−56 of a segment is below every floor.
 const DEPTH: usize = 56;
 
-/// Edges of the medial axis along an arc that coincides with another stroke: they leave it by less than a ten-thousandth of
-/// its length, since it turns by at most 30°.
-const COINCIDING: i32 = 64;
-
-struct Walker<'w, 'c, S, R, Out> {
-    curve: &'w Curve<'c, S>,
-    resolution: R,
-    contacts: &'w [Contact<S>],
+struct Walker<'w, 'c, S, Out> {
+    trail: Trail<'c, S>,
+    tolerance: &'w S,
     relevance: &'w S,
-    polyline: u32,
-    /// The current polyline has a vertex.
-    started: bool,
-    /// Whether the last station was emitted by the element before, so that the next element need not repeat it.
-    joined: bool,
-    guard: Guard<S>,
     /// Lengths below this are nothing.
     floor: S,
     out: &'w mut Out,
 }
 
-impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walker<'w, 'c, S, R, Out> {
-    fn new(
-        curve: &'w Curve<'c, S>,
-        resolution: R,
-        contacts: &'w [Contact<S>],
-        relevance: &'w S,
-        polyline: u32,
-        out: &'w mut Out,
-    ) -> Self {
-        let billionth = S::one() / &S::int(1_000_000_000);
-        let floor = billionth.max(S::unit_roundoff().mul_pow2(2)) * curve.diagonal;
-        Self {
-            curve,
-            resolution,
-            contacts,
-            relevance,
-            polyline,
-            started: false,
-            joined: false,
-            guard: Guard::new(),
-            floor,
-            out,
-        }
-    }
+/// Lengths below this are nothing.
+fn floor<S: Scalar>(curve: &Curve<'_, S>) -> S {
+    let billionth = S::one() / &S::int(1_000_000_000);
+    billionth.max(S::unit_roundoff().mul_pow2(2)) * curve.diagonal
+}
 
+impl<S: Scalar, Out: Sink<MedialPoint<S>>> Walker<'_, '_, S, Out> {
     /// All of one path; the number after its last polyline.
     fn path(mut self, path: u32) -> Result<u32, BufferFull> {
-        let Some(path) = self.curve.paths.get(path as usize) else { return Ok(self.polyline) };
+        let Some(path) = self.trail.curve.paths.get(path as usize) else { return Ok(self.trail.polyline()) };
         let last = path.first + path.count - 1;
         for segment in path.first..=last {
             self.side(segment, Side::Left)?;
@@ -253,121 +159,49 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
             self.turn(EndId::new(segment, 1), next.map(|n| EndId::new(n, 0)))?;
         }
         if path.closed {
-            self.break_line();
+            self.trail.break_line();
         }
         for segment in (path.first..=last).rev() {
             self.side(segment, Side::Right)?;
             let next = if segment > path.first { Some(segment - 1) } else { path.closed.then_some(last) };
             self.turn(EndId::new(segment, 0), next.map(|n| EndId::new(n, 1)))?;
         }
-        self.break_line();
-        Ok(self.polyline)
-    }
-
-    /// Ends the current polyline.
-    fn break_line(&mut self) {
-        if self.started {
-            self.polyline += 1;
-        }
-        self.started = false;
-        self.joined = false;
-    }
-
-    fn emit(&mut self, s: &Station<S>) -> Result<(), BufferFull> {
-        if !s.radius.is_finite() {
-            self.break_line();
-            return Ok(());
-        }
-        self.started = true;
-        self.out.take(MedialPoint {
-            at: s.at.clone(),
-            foot: s.foot.clone(),
-            side: s.side,
-            centre: s.centre.clone(),
-            radius: s.radius.clone(),
-            polyline: self.polyline,
-        })
-    }
-
-    /// Looks at a foot.
-    fn station(&mut self, foot: Foot<S>) -> Station<S> {
-        let TangentDisk { radius, touch } = tangent_disk_beside(self.curve, &foot, &mut self.guard);
-        let touch = touch.and_then(|t| self.curve.point(&t.at).map(|p| (t, p)));
-        let centre =
-            if radius.is_finite() { foot.point.plus_scaled(&radius, &foot.direction) } else { foot.point.clone() };
-        Station { at: foot.at, foot: foot.point, direction: foot.direction, side: foot.side, radius, centre, touch }
-    }
-
-    /// Looks at the normal to one side of a place. At a retracted end the curvature is unbounded on one side: there the
-    /// medial axis runs into the curve.
-    fn side_station(&mut self, at: CurveParam<S>, side: Side) -> Option<Station<S>> {
-        let segment = self.curve.segment(at.segment)?;
-        let end = usize::from(at.t > S::zero());
-        if (at.t <= S::zero() || at.t >= S::one()) && segment.end(end).retracted {
-            // B' vanishes: B'×B'' is 6v² times the product of the next two Taylor coefficients, on either side of the end.
-            let [_, b2, b3] = segment.power.taylor(&at.t);
-            let bend = b2.cross(&b3);
-            if (bend > S::zero()) == (side == Side::Left) && !bend.is_zero() {
-                return self.on_curve(at);
-            }
-        }
-        let foot = Foot::normal(self.curve, at, side)?;
-        Some(self.station(foot))
-    }
-
-    /// A vertex on the curve itself.
-    fn on_curve(&self, at: CurveParam<S>) -> Option<Station<S>> {
-        let foot = self.curve.point(&at)?;
-        Some(Station {
-            at,
-            centre: foot.clone(),
-            foot,
-            direction: Vector::zero(),
-            side: Side::Corner,
-            radius: S::zero(),
-            touch: None,
-        })
+        self.trail.break_line();
+        Ok(self.trail.polyline())
     }
 
     /// One side of one segment, in the direction that keeps it on the left.
     fn side(&mut self, index: u32, side: Side) -> Result<(), BufferFull> {
-        let curve = self.curve;
+        let curve = self.trail.curve;
         let Some(segment) = curve.segment(index) else { return Ok(()) };
         if segment.twin.is_some() {
-            self.break_line();
+            self.trail.break_line();
             return Ok(());
         }
         let arcs = curve.arcs_of(segment);
         let forwards = side == Side::Left;
         let start_t = if forwards { S::zero() } else { S::one() };
-        let Some(mut here) = self.side_station(CurveParam { segment: index, t: start_t }, side) else { return Ok(()) };
-        if !self.joined {
-            self.emit(&here)?;
+        let Some(mut here) = self.trail.side_station(CurveParam { segment: index, t: start_t }, side) else {
+            return Ok(());
+        };
+        if !self.trail.joined {
+            self.trail.emit(&here, self.out)?;
         }
         let count = arcs.len();
         for n in 0..count {
             let Some(arc) = arcs.get(if forwards { n } else { count - 1 - n }) else { break };
-            let touched = self.contacts_in(index, arc);
+            let touched = self.trail.contacts_in(index, arc);
             let points = touched.len();
             for m in 0..points {
                 let Some(contact) = touched.get(if forwards { m } else { points - 1 - m }) else { break };
                 here = self.contact(here, contact, arc, side)?;
             }
             let t = if forwards { &arc.span[1] } else { &arc.span[0] };
-            let Some(there) = self.side_station(CurveParam { segment: index, t: t.clone() }, side) else { break };
+            let Some(there) = self.trail.side_station(CurveParam { segment: index, t: t.clone() }, side) else { break };
             here = self.cell(here, there, arc, side)?;
         }
-        self.joined = true;
+        self.trail.joined = true;
         Ok(())
-    }
-
-    /// Contacts that have a place strictly inside an arc.
-    fn contacts_in(&self, segment: u32, arc: &Arc<S>) -> &'w [Contact<S>] {
-        let [from, to] = &arc.span;
-        let contacts = self.contacts;
-        let low = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.span[1] <= *from));
-        let high = contacts.partition_point(|c| c.segment < segment || (c.segment == segment && c.span[0] < *to));
-        contacts.get(low..high).unwrap_or_default()
     }
 
     /// Goes on to and through the part of a contact that lies on an arc. Where strokes coincide along a stretch the medial
@@ -379,30 +213,26 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
         arc: &Arc<S>,
         side: Side,
     ) -> Result<Station<S>, BufferFull> {
-        let index = arc.segment;
-        let [start, end] = &contact.span;
-        let (a, b) = (start.clone().max(arc.span[0].clone()), end.clone().min(arc.span[1].clone()));
-        let point = |t: &S| self.curve.segment(index).map(|s| s.point(t));
-        let length = point(&a).zip(point(&b)).map_or_else(S::zero, |(p, q)| p.distance(&q));
-        if length <= point_length(self.curve) {
-            let t = contact.middle();
-            let inside = t > arc.span[0] && t < arc.span[1];
-            return match self.on_curve(CurveParam { segment: index, t }).filter(|_| inside) {
-                Some(there) => self.cell(from, there, arc, side),
-                None => Ok(from),
-            };
-        }
-        let (a, b) = if side == Side::Left { (a, b) } else { (b, a) };
-        let Some(mut here) = self.on_curve(CurveParam { segment: index, t: a.clone() }) else { return Ok(from) };
+        let segment = arc.segment;
+        let (ends, edges) = match self.trail.passage(contact, arc, side) {
+            Passage::Elsewhere => return Ok(from),
+            Passage::Point(t) => {
+                return match self.trail.on_curve(CurveParam { segment, t }) {
+                    Some(there) => self.cell(from, there, arc, side),
+                    None => Ok(from),
+                };
+            }
+            Passage::Stretch(ends, edges) => (ends, edges),
+        };
+        let t = ends[0].clone();
+        let Some(mut here) = self.trail.on_curve(CurveParam { segment, t }) else { return Ok(from) };
         if from.at != here.at {
             self.cell(from, here.clone(), arc, side)?;
         }
-        let edges = if length * &S::int(10_000) < *self.curve.diagonal { 1 } else { COINCIDING };
         for k in 1..=edges {
-            let share = S::ratio(k, edges);
-            let t = if k == edges { b.clone() } else { (b.clone() - &a) * &share + &a };
-            let Some(there) = self.on_curve(CurveParam { segment: index, t }) else { break };
-            self.emit(&there)?;
+            let t = Passage::edge(&ends, k, edges);
+            let Some(there) = self.trail.on_curve(CurveParam { segment, t }) else { break };
+            self.trail.emit(&there, self.out)?;
             here = there;
         }
         Ok(here)
@@ -410,60 +240,6 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
 
     /// Emits everything after `from` up to and including `to`, which lie on one arc; gives back `to`.
     fn cell(&mut self, from: Station<S>, to: Station<S>, arc: &Arc<S>, side: Side) -> Result<Station<S>, BufferFull> {
-        let resolution = self.resolution.clone();
-        match resolution.tolerance() {
-            None => self.uniform_cell(from, to, resolution.steps(), side),
-            Some(tolerance) => self.adaptive_cell(from, to, arc, side, tolerance),
-        }
-    }
-
-    fn uniform_cell(
-        &mut self,
-        from: Station<S>,
-        to: Station<S>,
-        steps: u32,
-        side: Side,
-    ) -> Result<Station<S>, BufferFull> {
-        let steps = i32::try_from(steps.clamp(1, 1 << 24)).unwrap_or(1);
-        let scale = S::int(steps);
-        let (a, b) = (from.at.t.clone(), to.at.t.clone());
-        let forwards = b > a;
-        // The first grid parameter strictly behind a, by search: the kernel has no floor function.
-        let grid = |k: i32| S::int(k) / &scale;
-        let (mut lo, mut hi) = (-1, steps + 1);
-        while hi - lo > 1 {
-            let k = lo + (hi - lo) / 2;
-            let beyond = if forwards { grid(k) > a } else { grid(k) >= a };
-            if beyond {
-                hi = k;
-            } else {
-                lo = k;
-            }
-        }
-        let mut k = if forwards { hi } else { lo };
-        while (0..=steps).contains(&k) {
-            let t = grid(k);
-            if if forwards { t >= b } else { t <= b } {
-                break;
-            }
-            if let Some(foot) = Foot::normal(self.curve, CurveParam { segment: to.at.segment, t }, side) {
-                let s = self.station(foot);
-                self.emit(&s)?;
-            }
-            k += if forwards { 1 } else { -1 };
-        }
-        self.emit(&to)?;
-        Ok(to)
-    }
-
-    fn adaptive_cell(
-        &mut self,
-        from: Station<S>,
-        to: Station<S>,
-        arc: &Arc<S>,
-        side: Side,
-        tolerance: &S,
-    ) -> Result<Station<S>, BufferFull> {
         let mut here = from;
         let mut pending: ArrayVec<Pending<S>, DEPTH> = ArrayVec::new();
         pending.keep(Pending { station: to, clear: false });
@@ -488,10 +264,10 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
                 if !top.clear {
                     top.clear = length <= self.floor || self.clear(arc, &at, side, &length);
                 }
-                if let Some(foot) = Foot::normal(self.curve, at, side) {
-                    let middle = self.station(foot);
-                    if (!top.clear || self.rough(&here, &middle, &top.station, tolerance))
-                        && !self.between_two(arc, side, [&here, &middle, &top.station], tolerance)
+                if let Some(foot) = Foot::normal(self.trail.curve, at, side) {
+                    let middle = self.trail.station(foot);
+                    if (!top.clear || self.rough(&here, &middle, &top.station))
+                        && !self.between_two(arc, side, [&here, &middle, &top.station])
                     {
                         let clear = top.clear;
                         pending.keep(top);
@@ -501,11 +277,11 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
                         let Some(back) = pending.pop() else { break };
                         top = back;
                     } else {
-                        self.emit(&middle)?;
+                        self.trail.emit(&middle, self.out)?;
                     }
                 }
             }
-            self.emit(&top.station)?;
+            self.trail.emit(&top.station, self.out)?;
             here = top.station;
         }
         Ok(here)
@@ -513,7 +289,7 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
 
     /// Nothing that is not local to this place, and could touch a disk on this side of it, comes nearer than `length`.
     fn clear(&self, arc: &Arc<S>, at: &CurveParam<S>, side: Side, length: &S) -> bool {
-        let Some(segment) = self.curve.segment(at.segment) else { return true };
+        let Some(segment) = self.trail.curve.segment(at.segment) else { return true };
         let mut strokes = Strokes::new();
         strokes.keep(Locality::on_arc(segment, arc, &at.t));
         self.alone(arc, None, &segment.point(&at.t), side, length, strokes)
@@ -534,10 +310,10 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
     ) -> bool {
         let limit = reach.clone().square();
         loop {
-            let Some(near) = nearest_beside(self.curve, p, &strokes, limit.clone()) else { return true };
+            let Some(near) = nearest_beside(self.trail.curve, p, &strokes, limit.clone()) else { return true };
             let hidden = self.behind(arc, &near.point, side) || facing.is_some_and(|f| self.covered(f, p, &near.point));
             // Each turn takes one more stroke: the room for them bounds the loop.
-            let Some(stroke) = Locality::of(self.curve, &near.at).filter(|_| hidden) else { return false };
+            let Some(stroke) = Locality::of(self.trail.curve, &near.at).filter(|_| hidden) else { return false };
             if strokes.try_push(stroke).is_err() {
                 return false;
             }
@@ -546,25 +322,25 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
 
     /// Seen from p, the point q is behind an arc or on it.
     fn covered(&self, facing: &Arc<S>, p: &Point<S>, q: &Point<S>) -> bool {
-        let Some(segment) = self.curve.segment(facing.segment) else { return false };
+        let Some(segment) = self.trail.curve.segment(facing.segment) else { return false };
         let near = nearest_on_arc(segment, facing, q).point;
         let ahead = near.minus(p).unit();
-        ahead.is_some_and(|d| d.dot(&q.minus(&near)) >= -reach(self.curve))
+        ahead.is_some_and(|d| d.dot(&q.minus(&near)) >= -reach(self.trail.curve))
     }
 
     /// The point q lies on the other side of the arc: its nearest point there is an inner one, and clearly so.
     fn behind(&self, arc: &Arc<S>, q: &Point<S>, side: Side) -> bool {
-        let Some(segment) = self.curve.segment(arc.segment) else { return false };
+        let Some(segment) = self.trail.curve.segment(arc.segment) else { return false };
         let near = nearest_on_arc(segment, arc, q);
         let left = segment.tangent(&near.at.t).left();
         let height = left.dot(&q.minus(&near.point));
         let depth = if side == Side::Left { -height } else { height };
         let inner = near.at.t > arc.span[0] && near.at.t < arc.span[1];
-        inner && depth > self.curve.noise.clone() * &S::int(8)
+        inner && depth > self.trail.curve.noise.clone() * &S::int(8)
     }
 
     /// The polyline from a to b through m is not good enough yet.
-    fn rough(&self, a: &Station<S>, m: &Station<S>, b: &Station<S>, tolerance: &S) -> bool {
+    fn rough(&self, a: &Station<S>, m: &Station<S>, b: &Station<S>) -> bool {
         let (ra, rm, rb) = (&a.radius, &m.radius, &b.radius);
         let least = ra.clone().min(rm.clone()).min(rb.clone());
         if least >= *self.relevance || !least.is_finite() {
@@ -578,7 +354,7 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
         if a.centre.distance_sq(&b.centre) > floored.clone().half().square() {
             return true;
         }
-        let allowed = floored * tolerance;
+        let allowed = floored * self.tolerance;
         let allowed_sq = allowed.twice().square();
         if (!self.same_feature(a, m) || !self.same_feature(m, b)) && a.centre.distance_sq(&b.centre) > allowed_sq {
             return true;
@@ -589,7 +365,7 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
     /// The cell is good enough because nothing but two strokes matters to it: its own and one opposite, as in a narrow
     /// channel, a cusp or an acute crossing. There the medial axis runs smoothly between them, and an edge may be much longer
     /// than its radii.
-    fn between_two(&self, arc: &Arc<S>, side: Side, cell: [&Station<S>; 3], tolerance: &S) -> bool {
+    fn between_two(&self, arc: &Arc<S>, side: Side, cell: [&Station<S>; 3]) -> bool {
         let [a, m, b] = cell;
         let Some((touch, _)) = &m.touch else { return false };
         let opposite = |s: &Station<S>| match &s.touch {
@@ -602,7 +378,7 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
         }
         let (ra, rm, rb) = (&a.radius, &m.radius, &b.radius);
         let least = ra.clone().min(rm.clone()).min(rb.clone());
-        let allowed = (least.max(self.floor.clone() * &S::int(100)) * tolerance).twice();
+        let allowed = (least.max(self.floor.clone() * &S::int(100)) * self.tolerance).twice();
         if distance_sq_to_segment(&m.centre, &a.centre, &b.centre) > allowed.clone().square() {
             return false;
         }
@@ -615,12 +391,12 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
                 return false;
             }
         }
-        let Some(own) = Locality::of(self.curve, &m.at) else { return false };
-        let Some(facing) = self.curve.arcs.get(touch.arc as usize) else { return false };
-        if self.curve.segment(facing.segment).is_none_or(|other| own.holds(other, facing)) {
+        let Some(own) = Locality::of(self.trail.curve, &m.at) else { return false };
+        let Some(facing) = self.trail.curve.arcs.get(touch.arc as usize) else { return false };
+        if self.trail.curve.segment(facing.segment).is_none_or(|other| own.holds(other, facing)) {
             return false;
         }
-        let Some(other) = Locality::of(self.curve, &touch.at) else { return false };
+        let Some(other) = Locality::of(self.trail.curve, &touch.at) else { return false };
         let mut strokes = Strokes::new();
         strokes.keep(own);
         strokes.keep(other);
@@ -642,8 +418,8 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
 
     fn same_path(&self, i: u32, j: u32) -> bool {
         let path = |k: u32| {
-            let arc = self.curve.arcs.get(k as usize)?;
-            self.curve.segment(arc.segment).map(|s| s.path)
+            let arc = self.trail.curve.arcs.get(k as usize)?;
+            self.trail.curve.segment(arc.segment).map(|s| s.path)
         };
         i == j || path(i) == path(j)
     }
@@ -652,108 +428,55 @@ impl<'w, 'c, S: Scalar, R: Fineness<S> + Clone, Out: Sink<MedialPoint<S>>> Walke
     ///
     /// `follows` is the end by which the walk goes on.
     fn turn(&mut self, end: EndId, follows: Option<EndId>) -> Result<(), BufferFull> {
-        let curve = self.curve;
-        let Some(arriving) = curve.end(end) else { return Ok(()) };
-        if curve.segment(end.segment()).is_some_and(|s| s.twin.is_some()) {
-            self.break_line();
-            return Ok(());
-        }
-        if arriving.kind == JointKind::Smooth {
-            let next = curve.joint(end).nth(1);
-            if next != follows {
-                self.break_line();
+        let joint = self.trail.joint(end, follows);
+        let (fan, breaks) = match joint {
+            Joint::On => return Ok(()),
+            Joint::Break => (true, true),
+            Joint::Corner(breaks) => {
+                let at = CurveParam { segment: end.segment(), t: if end.side() == 0 { S::zero() } else { S::one() } };
+                if let Some(corner) = self.trail.on_curve(at) {
+                    self.trail.emit(&corner, self.out)?;
+                }
+                (false, breaks)
             }
-            return Ok(());
-        }
-        // The next branch clockwise: from the left side over ahead to the right side.
-        let mut next = end;
-        let mut best: Option<S> = None;
-        for e in curve.joint(end) {
-            let Some(branch) = curve.end(e) else { continue };
-            // A branch along the same line as the arriving one is no turn at all, its own reverse a full one.
-            let rank = if e == end { S::int(4) } else { clockwise_rank(&arriving.leaving, &branch.leaving) };
-            if best.as_ref().is_none_or(|b| rank < *b) {
-                best = Some(rank);
-                next = e;
-            }
-        }
-        let Some(branch) = curve.end(next) else { return Ok(()) };
-        let rank = best.unwrap_or_else(|| S::int(4));
-        // Half a turn has rank 2: more than that leaves room for a fan, unless another stroke passes here.
-        let fan = rank > S::int(2) && !self.touched(end);
-        if fan {
-            let first = arriving.leaving.left().opposite();
-            let last = branch.leaving.left();
-            if let Some(middle) = arriving.leaving.plus(&branch.leaving).opposite().unit() {
+            Joint::Fan([first, middle, last], breaks) => {
                 self.fan(end, first, middle, last)?;
+                (true, breaks)
             }
-        } else {
-            let at = CurveParam { segment: end.segment(), t: if end.side() == 0 { S::zero() } else { S::one() } };
-            if let Some(corner) = self.on_curve(at) {
-                self.emit(&corner)?;
-            }
-        }
-        if follows.is_some_and(|f| f != next) || (follows.is_none() && next != end) {
-            self.break_line();
+        };
+        if breaks {
+            self.trail.break_line();
         }
         // The next side starts with its own normal, which the fan ended with, or which the corner point precedes.
-        self.joined = self.joined && fan;
+        self.trail.joined &= fan;
         Ok(())
-    }
-
-    /// Something that is not joined here touches the joint: no disk fits at it.
-    fn touched(&self, end: EndId) -> bool {
-        let Some(p) = self.curve.end_point(end) else { return false };
-        let mut branches: ArrayVec<Locality<S>, 8> = ArrayVec::new();
-        for e in self.curve.joint(end) {
-            let t = if e.side() == 0 { S::zero() } else { S::one() };
-            let Some(locality) = Locality::of(self.curve, &CurveParam { segment: e.segment(), t }) else { continue };
-            if branches.try_push(locality).is_err() {
-                return false;
-            }
-        }
-        let limit = reach(self.curve) * &S::int(4);
-        nearest_beside(self.curve, p, &branches, limit.square()).is_some()
     }
 
     /// The medial points of an end's directions from `first` over `middle` to `last`.
     fn fan(&mut self, end: EndId, first: Vector<S>, middle: Vector<S>, last: Vector<S>) -> Result<(), BufferFull> {
-        let Some(mut here) = self.fan_station(end, first) else { return Ok(()) };
+        let Some(mut here) = self.trail.fan_station(end, first) else { return Ok(()) };
         for to in [middle, last] {
-            let Some(to) = self.fan_station(end, to) else { continue };
+            let Some(to) = self.trail.fan_station(end, to) else { continue };
             let mut pending: ArrayVec<Station<S>, DEPTH> = ArrayVec::new();
             pending.keep(to);
             while let Some(top) = pending.pop() {
                 let spread = here.direction.minus(&top.direction).norm();
                 let middle = here.direction.plus(&top.direction).unit().filter(|_| !pending.is_full());
-                if let Some(m) = middle.and_then(|d| self.fan_station(end, d)) {
-                    let split = match self.resolution.tolerance() {
-                        None => {
-                            let steps = i32::try_from(self.resolution.steps().clamp(16, 1 << 20)).unwrap_or(16);
-                            spread * &S::int(steps) > S::int(16)
-                        }
-                        Some(tolerance) => {
-                            let narrow = spread <= S::unit_roundoff().mul_pow2(8);
-                            let quarter = S::one().mul_pow2(-2);
-                            !narrow && (spread > quarter || self.rough(&here, &m, &top, tolerance))
-                        }
-                    };
+                if let Some(m) = middle.and_then(|d| self.trail.fan_station(end, d)) {
+                    let narrow = spread <= S::unit_roundoff().mul_pow2(8);
+                    let quarter = S::one().mul_pow2(-2);
+                    let split = !narrow && (spread > quarter || self.rough(&here, &m, &top));
                     if split && pending.remaining_capacity() >= 2 {
                         pending.keep(top);
                         pending.keep(m);
                         continue;
                     }
-                    self.emit(&m)?;
+                    self.trail.emit(&m, self.out)?;
                 }
-                self.emit(&top)?;
+                self.trail.emit(&top, self.out)?;
                 here = top;
             }
         }
         Ok(())
-    }
-
-    fn fan_station(&mut self, end: EndId, direction: Vector<S>) -> Option<Station<S>> {
-        let foot = Foot::fan(self.curve, end, direction)?;
-        Some(self.station(foot))
     }
 }

@@ -1,0 +1,92 @@
+//! The walk with equal steps, one foot at a time: the same medial points whatever the budget, and no call hands out more of
+//! them than it may look at.
+
+mod common;
+
+use common::{Strokes, closed, cubic, ellipse, open, polygon, quarters, stick};
+use feature_sampling::buffer::{BufferFull, Sink, SliceStore};
+use feature_sampling::curve::door::DoorOptions;
+use feature_sampling::medial::uniform::{Progress, UniformWalk};
+use feature_sampling::medial::{self, MedialPoint, Resolution};
+
+/// Fans at open ends and corners, an acute corner, a crossing, a touching, a stroke drawn twice, a cusp, strokes that
+/// coincide along a stretch.
+fn drawings() -> Vec<(&'static str, Strokes)> {
+    let wave = cubic([[0.0, 0.0], [20.0, 40.0], [50.0, -30.0], [70.0, 10.0]]);
+    let cusp = cubic([[0.0, 0.0], [10.0, 10.0], [0.0, 10.0], [10.0, 0.0]]);
+    let right: Vec<_> = quarters(4.0, 0.0, 2.0, 2.0).into();
+    vec![
+        ("ellipse", vec![ellipse(0.0, 0.0, 8.0, 3.0)]),
+        ("wave and a stroke across", vec![open(vec![wave]), stick([0.0, 20.0], [60.0, -5.0])]),
+        ("zigzag", vec![polygon(false, &[[0.0, 0.0], [5.0, 8.0], [6.0, 0.0], [6.5, 9.0]])]),
+        ("square", vec![polygon(true, &[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])]),
+        ("touching circles", vec![ellipse(0.0, 0.0, 2.0, 2.0), closed(right)]),
+        ("twice", vec![open(vec![wave]), open(vec![wave.reversed()]), stick([0.0, 30.0], [60.0, 35.0])]),
+        ("cusp", vec![open(vec![cusp]), stick([-5.0, -5.0], [15.0, -4.0])]),
+        ("half a stroke again", vec![stick([0.0, 0.0], [10.0, 0.0]), stick([3.0, 0.0], [7.0, 0.0])]),
+    ]
+}
+
+/// Counts what a call hands out.
+struct Counted {
+    points: Vec<MedialPoint<f64>>,
+    call: u32,
+}
+
+impl Sink<MedialPoint<f64>> for Counted {
+    fn take(&mut self, point: MedialPoint<f64>) -> Result<(), BufferFull> {
+        self.points.push(point);
+        self.call += 1;
+        Ok(())
+    }
+}
+
+#[test]
+fn the_budget_changes_nothing() {
+    for (name, strokes) in drawings() {
+        let model = common::curve_model(&strokes, &DoorOptions::default());
+        let curve = model.curve();
+        let relevance = medial::walk::relevance(&curve);
+        for steps in [1, 16, 33, 300] {
+            let mut whole = Vec::new();
+            for (path, _) in (0..).zip(curve.paths) {
+                whole.extend(model.walk(path, &Resolution::Steps(steps), &relevance));
+            }
+            assert!(!whole.is_empty(), "{name}");
+            for budget in [0, 1, 2, 7, 1000] {
+                let mut out = Counted { points: Vec::new(), call: 0 };
+                for (path, _) in (0..).zip(curve.paths) {
+                    let from = out.points.len();
+                    let mut walk = UniformWalk::new(&curve, path, steps, model.contacts(), 0);
+                    loop {
+                        out.call = 0;
+                        let progress = walk.step(budget, &mut out).unwrap();
+                        assert!(out.call <= budget.max(1), "{name}: {} points in a call of {budget}", out.call);
+                        if progress == Progress::Done {
+                            break;
+                        }
+                    }
+                    out.call = 0;
+                    assert_eq!(walk.step(1, &mut out), Ok(Progress::Done));
+                    assert_eq!(out.call, 0, "{name}: a walk that is done hands out nothing");
+                    let last = out.points[from..].last().map_or(0, |p| p.polyline + 1);
+                    assert_eq!(walk.polyline(), last, "{name}: the next polyline's number is free");
+                }
+                assert_eq!(out.points, whole, "{name}, {steps} steps");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_path_and_no_room() {
+    let model = common::curve_model(&[ellipse(0.0, 0.0, 8.0, 3.0)], &DoorOptions::default());
+    let curve = model.curve();
+    let mut none = UniformWalk::new(&curve, 9, 16, model.contacts(), 5);
+    assert_eq!(none.step(1, &mut Vec::new()), Ok(Progress::Done));
+    assert_eq!(none.polyline(), 5);
+    let mut room = [MedialPoint::default(); 10];
+    let mut out = SliceStore::new(&mut room);
+    let full = medial::walk_uniform(&curve, 0, 16, model.contacts(), 0, &mut out);
+    assert_eq!(full, Err(BufferFull { capacity: 10 }));
+}

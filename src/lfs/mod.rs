@@ -12,6 +12,7 @@ pub mod compact;
 pub mod enclose;
 #[cfg(feature = "kiddo")]
 pub mod kd;
+pub mod table;
 
 use crate::buffer::{BufferFull, Store};
 use crate::curve::CurveParam;

@@ -1,8 +1,8 @@
-//! What every image needs: vectors, start-up, and memory. Included by the programs in `bin`.
+//! What every image needs: vectors, start-up, and memory. Included by the programs in `bin`, which name the kind of memory.
 
+use super::Memory;
 use core::arch::global_asm;
 use core::mem::MaybeUninit;
-use plotter::memory::Memory;
 use plotter::{Fault, Listener, Totals};
 
 // Stack pointer and reset vector; the other exceptions stop in one place. Where there is a floating-point unit it is switched

@@ -7,21 +7,26 @@
 //! A job goes through two functions. [`receive`] reads it, checks it and makes the curve; its scratch memory is free
 //! afterwards and may be the same bytes as [`MedialMemory`]. [`draw`] computes the medial polylines and their index, and
 //! then draws. Every loop is bounded by the job; every failure is a [`Fault`], after which the next job can be received.
+//!
+//! A controller that gets lfs from its host does the same with [`table::receive`] and [`table::draw`], in a third of the
+//! memory and the flash.
 #![no_std]
 #![deny(unsafe_code)]
 
 #[allow(unsafe_code, reason = "each use is explained there")]
 pub mod memory;
+pub mod table;
 
 use feature_sampling::bezier::Cubic;
-use feature_sampling::buffer::{BufferFull, Sink, SliceStore, Store};
+use feature_sampling::buffer::{BufferFull, Forget, SliceStore, Store};
 use feature_sampling::curve::contact::{self, Contact};
 use feature_sampling::curve::door::{self, CurveBuffers, CurveError, DoorOptions, Entered, PathInput};
 use feature_sampling::curve::{Arc, Curve, Path, Segment};
 use feature_sampling::geometry::hierarchy::{Item, Node, nodes_for};
 use feature_sampling::geometry::{Aabb, Point};
+use feature_sampling::lfs::FeatureSize;
 use feature_sampling::lfs::compact::{Block, Blocks, CompactIndex, boxes_for};
-use feature_sampling::medial::{self, MedialPoint};
+use feature_sampling::medial::uniform::{Progress, UniformWalk};
 use feature_sampling::sampling::resumable::{Resumable, Step};
 use feature_sampling::sampling::{Condition, Sample, SamplingError, SamplingOptions};
 use fsample_job::{Command, Decoder, JobError, JobOptions, LEAF};
@@ -142,7 +147,7 @@ pub struct Received {
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
-    /// A foot point with its disk.
+    /// A turn of the medial walk: a foot point with its disk, mostly.
     Foot,
     /// A call of the sampler.
     Sampler,
@@ -150,6 +155,15 @@ pub enum Work {
     Motor,
     /// A line added to the planner.
     Line,
+    /// The touchings of one segment.
+    Contacts,
+    /// The index over the medial polylines.
+    Index,
+}
+
+impl Work {
+    /// How many kinds there are.
+    pub const KINDS: usize = 6;
 }
 
 /// What the controller tells as it works.
@@ -173,7 +187,7 @@ pub struct Totals {
     pub segments: u32,
     /// Arcs of C.
     pub arcs: u32,
-    /// Medial points.
+    /// Medial points; values of lfs, where the host has sent them.
     pub medial: u32,
     /// Blocks that hold them.
     pub blocks: u32,
@@ -199,6 +213,7 @@ pub fn receive(
     let cubics: &[Cubic<f32>] = scratch.cubics;
     let mut buffers = CurveBuffers {
         segments: SliceStore::new(&mut *memory.segments),
+        sources: Forget,
         paths: SliceStore::new(&mut *memory.paths),
         arcs: SliceStore::new(&mut *memory.arcs),
         nodes: SliceStore::new(&mut *memory.nodes),
@@ -258,6 +273,7 @@ pub fn draw(
     let [segments, paths, arcs, nodes] = *counts;
     let curve = Curve {
         segments: memory.segments.get(..segments).unwrap_or_default(),
+        sources: &[],
         paths: memory.paths.get(..paths).unwrap_or_default(),
         arcs: memory.arcs.get(..arcs).unwrap_or_default(),
         nodes: memory.nodes.get(..nodes).unwrap_or_default(),
@@ -267,21 +283,32 @@ pub fn draw(
     };
     let mut contacts = SliceStore::new(medial.contacts);
     for (segment, _) in (0_u32..).zip(curve.segments) {
+        listener.before();
         contact::find(&curve, segment, &mut contacts)?;
+        listener.after(Work::Contacts);
     }
     let contacts: &[Contact<f32>] = contacts.into_items();
 
-    let relevance = medial::walk::relevance(&curve);
-    let mut feet = Feet { blocks: Blocks::new(medial.blocks, options.resolution()), listener };
-    feet.listener.before();
+    let mut feet = Blocks::new(medial.blocks, options.resolution());
     let mut line = 0;
     for (path, _) in (0_u32..).zip(curve.paths) {
-        let steps = u32::from(options.foot_points);
-        line = medial::walk_uniform(&curve, path, steps, contacts, &relevance, line, &mut feet)?;
+        let mut walk = UniformWalk::new(&curve, path, u32::from(options.foot_points), contacts, line);
+        // Every turn gets on; the path ends it.
+        loop {
+            listener.before();
+            let progress = walk.step(1, &mut feet)?;
+            listener.after(Work::Foot);
+            if progress == Progress::Done {
+                break;
+            }
+        }
+        line = walk.polyline();
     }
-    let points = feet.blocks.taken();
-    let blocks: &[Block<f32>] = feet.blocks.finish()?;
+    let points = feet.taken();
+    let blocks: &[Block<f32>] = feet.finish()?;
+    listener.before();
     let index = CompactIndex::build(blocks, medial.boxes)?;
+    listener.after(Work::Index);
 
     let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     let totals = Totals {
@@ -291,6 +318,18 @@ pub fn draw(
         blocks: count(blocks.len()),
         ..Totals::default()
     };
+    draw_paths(&curve, &index, options, budget, totals, listener)
+}
+
+/// Draws all paths of a curve.
+fn draw_paths(
+    curve: &Curve<'_, f32>,
+    features: &impl FeatureSize<f32>,
+    options: &JobOptions,
+    budget: u32,
+    totals: Totals,
+    listener: &mut impl Listener,
+) -> Result<Totals, Fault> {
     let planner = Planner::new(Limits {
         feed: options.feed,
         corner_speed: options.corner_speed,
@@ -301,23 +340,9 @@ pub fn draw(
     let sampling = sampling_options(options);
     let mut pen = Pen { planner, listener, totals };
     for (path, p) in (0_u32..).zip(curve.paths) {
-        pen.path(Resumable::new(&curve, &index, path, &sampling).map_err(Fault::Sampling)?, budget, p.closed)?;
+        pen.path(Resumable::new(curve, features, path, &sampling).map_err(Fault::Sampling)?, budget, p.closed)?;
     }
     Ok(pen.totals)
-}
-
-/// Medial points on their way to the blocks.
-struct Feet<'l, 'b, L> {
-    blocks: Blocks<'b, f32>,
-    listener: &'l mut L,
-}
-
-impl<L: Listener> Sink<MedialPoint<f32>> for Feet<'_, '_, L> {
-    fn take(&mut self, point: MedialPoint<f32>) -> Result<(), BufferFull> {
-        self.listener.after(Work::Foot);
-        self.listener.before();
-        self.blocks.take(point)
-    }
 }
 
 /// The motors with what feeds them.
@@ -332,7 +357,7 @@ impl<L: Listener> Pen<'_, L> {
     /// the motors step. On a machine a timer interrupt takes the steps and the main loop does the rest.
     fn path(
         &mut self,
-        mut sampler: Resumable<'_, f32, CompactIndex<'_, f32>>,
+        mut sampler: Resumable<'_, f32, impl FeatureSize<f32>>,
         budget: u32,
         closed: bool,
     ) -> Result<(), Fault> {
@@ -418,6 +443,8 @@ fn read(
                 lengths.push((0, closed))?;
                 continue;
             }
+            // lfs for another kind of controller: η was measured for that one.
+            Some(Command::Table { .. } | Command::Values(_)) => return Err(Fault::Job(JobError::Order)),
             Some(Command::Line([x, y])) => Cubic::line(here, Point::new(x, y)),
             Some(Command::Cubic([a, b, c, d, e, f])) => {
                 Cubic::new(here, Point::new(a, b), Point::new(c, d), Point::new(e, f))

@@ -4,10 +4,11 @@
 
 use crate::{
     ARCS, Arc, BLOCKS, BOXES, Block, CONTACTS, CUBICS, Contact, Cubic, CurveMemory, Fault, Item, LEAVES, Listener,
-    MedialMemory, NODES, Node, ORDER, PATHS, Path, SEGMENTS, Scratch, Segment, Totals, draw, receive,
+    MedialMemory, NODES, Node, ORDER, PATHS, Path, SEGMENTS, Scratch, Segment, Totals, draw, receive, table,
 };
 use core::mem::{ManuallyDrop, MaybeUninit};
 use feature_sampling::geometry::Aabb;
+use feature_sampling::lfs::table::Column;
 
 /// Memory of the curve, alive through the whole job.
 struct Lasting {
@@ -92,6 +93,55 @@ impl Memory {
 }
 
 impl Default for Memory {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Memory for one job that brings its lfs along ([`table`]).
+#[derive(Debug)]
+pub struct TableMemory(MaybeUninit<Given>);
+
+/// What such a job keeps.
+struct Given {
+    segments: [Segment<f32>; SEGMENTS],
+    columns: [Column; SEGMENTS],
+    paths: [Path; PATHS],
+    values: [u16; table::VALUES],
+}
+
+impl TableMemory {
+    /// Nothing is written before a job runs.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(MaybeUninit::uninit())
+    }
+
+    /// Receives one job and draws it.
+    ///
+    /// # Errors
+    /// See [`Fault`].
+    pub fn run(
+        &mut self,
+        bytes: impl Iterator<Item = u8>,
+        budget: u32,
+        listener: &mut impl Listener,
+    ) -> Result<Totals, Fault> {
+        let all = self.0.as_mut_ptr();
+        // SAFETY: places inside memory that is borrowed for as long as this runs; each field is lent once.
+        let memory = unsafe {
+            table::TableMemory {
+                segments: fresh(&raw mut (*all).segments),
+                columns: fresh(&raw mut (*all).columns),
+                paths: fresh(&raw mut (*all).paths),
+                values: fresh(&raw mut (*all).values),
+            }
+        };
+        table::draw(&table::receive(bytes, memory)?, budget, listener)
+    }
+}
+
+impl Default for TableMemory {
     fn default() -> Self {
         Self::new()
     }

@@ -117,6 +117,16 @@ impl<'d> Engine<'d> {
         self.medial.lfs(p)
     }
 
+    /// The turn from which a joint is a corner, in degrees.
+    pub(crate) const fn corner_angle(&self) -> f64 {
+        self.options.corner_angle
+    }
+
+    /// The relative error of lfs that the medial axis was refined to.
+    pub(crate) const fn tolerance(&self) -> f64 {
+        self.options.tolerance
+    }
+
     /// What was changed before anything was computed.
     pub(crate) fn door(&self) -> Door {
         Door::new(self.curve.report())

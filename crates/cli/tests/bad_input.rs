@@ -133,6 +133,7 @@ fn options_that_make_no_sense() {
     usage("--corner-angle 91", &["corner-angle"]);
     usage("--threads 0", &["threads"]);
     usage("--layers samples", &["layers", "svg"]);
+    usage("--with-lfs", &["with-lfs", "fsj"]);
     usage("--pen-up M5", &["gcode"]);
     usage("--unknown", &["--unknown"]);
     place.fails("medial drawing.svg -o out.fsj", 2, &["fsj", "csv"]);

@@ -10,10 +10,17 @@
 //! | 2 | begin a path | x, y, closed (u8: 0 or 1) |
 //! | 3 | cubic from the last point | x1, y1, x2, y2, x3, y3 |
 //! | 4 | line from the last point | x, y |
+//! | 5 | lfs along the cubic before it | number of values, 2 to 1025 (u16), corners (u8: 1 where the cubic starts, 2 where it ends) |
+//! | 6 | values | 16 values (u16 each): the upper half of a binary32, towards 0; what is beyond the number is 0 |
 //! | 15 | end | CRC-32 (u32) |
 //!
 //! η covers what the chip's lfs may be too large by (its steps, f32): the chip samples at ε/(1 + η), so that the effective
 //! ε is never above the asked one.
+//!
+//! **With lfs.** Commands 5 and 6 are for a controller that does not compute lfs: every cubic has them or none. The cubics are then
+//! those of the curve as the host's door made it, split, snapped and smoothed, so that the controller needs no door; the
+//! values stand at equal steps of the cubic's parameter, the first at 0, the last at 1, and none is above lfs at its place. As
+//! many commands 6 follow a command 5 as its values need. η covers what the table may be too large by.
 //!
 //! [`Decoder::push`] takes one byte and does a bounded amount of work; its memory is fixed. A job must not move a motor
 //! before its end has been accepted: only then is the checksum known to hold.
@@ -31,6 +38,28 @@ pub const LARGEST: f32 = 1.0e5;
 /// Arcs that share a leaf of the curve's hierarchy on the chip. The host measures η with the same number: another one can
 /// change the last bits of a radius.
 pub const LEAF: u32 = 8;
+
+/// Values of lfs in one command.
+pub const VALUES: usize = 16;
+
+/// Most values along one cubic.
+pub const MOST_VALUES: u16 = 1025;
+
+/// The upper half of a number that is not negative, towards 0: the number loses a 128th of itself at most (the smallest ones,
+/// below 1e-38, more). What is negative or not a number becomes 0.
+#[must_use]
+pub const fn reduce(v: f32) -> u16 {
+    if v > 0.0 { (v.to_bits() >> 16) as u16 } else { 0 }
+}
+
+/// The number of an upper half.
+#[must_use]
+pub const fn expand(half: u16) -> f32 {
+    f32::from_bits((half as u32) << 16)
+}
+
+/// The upper half of infinity: larger ones are negative or not numbers.
+const INFINITE: u16 = reduce(f32::INFINITY);
 
 /// What a job asks of the controller. Lengths in user units, times in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +102,15 @@ pub enum Command {
     Cubic([f32; 6]),
     /// A line from the last point.
     Line([f32; 2]),
+    /// A table of lfs along the last cubic follows.
+    Table {
+        /// How many values.
+        values: u16,
+        /// C has a corner where the cubic starts, where it ends.
+        corners: [bool; 2],
+    },
+    /// Values of the table, as [`expand`] reads them.
+    Values([u16; VALUES]),
     /// The job is whole and its checksum holds.
     End,
 }
@@ -144,6 +182,8 @@ const fn payload(kind: u8) -> Option<usize> {
         2 => 9,
         3 => 24,
         4 => 8,
+        5 => 3,
+        6 => 2 * VALUES,
         15 => 4,
         _ => return None,
     })
@@ -181,6 +221,10 @@ pub struct Decoder {
     before: u32,
     options: bool,
     path: bool,
+    /// The last command was a cubic or a line.
+    curve: bool,
+    /// Values of a table that are still to come.
+    values: usize,
 }
 
 impl Default for Decoder {
@@ -200,6 +244,8 @@ impl Decoder {
             before: u32::MAX,
             options: false,
             path: false,
+            curve: false,
+            values: 0,
         }
     }
 
@@ -263,9 +309,10 @@ impl Decoder {
     }
 
     fn command(&mut self, kind: u8) -> Result<Command, JobError> {
-        if (kind == 1) == self.options {
+        if (kind == 1) == self.options || (kind == 6) != (self.values > 0) || (kind == 5 && !self.curve) {
             return Err(JobError::Order);
         }
+        self.curve = matches!(kind, 3 | 4);
         match kind {
             1 => {
                 self.options = true;
@@ -301,6 +348,23 @@ impl Decoder {
                 }
                 self.state = State::Ended;
                 Ok(Command::End)
+            }
+            5 => {
+                let (values, corners) = (u16::from_le_bytes([self.byte(0), self.byte(1)]), self.byte(2));
+                if !(2..=MOST_VALUES).contains(&values) || corners > 3 {
+                    return Err(JobError::Range);
+                }
+                self.values = usize::from(values);
+                Ok(Command::Table { values, corners: [corners & 1 != 0, corners & 2 != 0] })
+            }
+            6 => {
+                let values = core::array::from_fn(|k| u16::from_le_bytes([self.byte(2 * k), self.byte(2 * k + 1)]));
+                let beyond = values.iter().skip(self.values);
+                if values.iter().any(|&v| v > INFINITE) || beyond.copied().any(|v| v != 0) {
+                    return Err(JobError::Range);
+                }
+                self.values = self.values.saturating_sub(VALUES);
+                Ok(Command::Values(values))
             }
             _ if !self.path => Err(JobError::Order),
             3 => {
@@ -419,6 +483,25 @@ impl<'a> Encoder<'a> {
     pub fn line(&mut self, to: [f32; 2]) -> Result<(), JobError> {
         self.bytes(&[4])?;
         self.numbers(&to)
+    }
+
+    /// lfs along the cubic before it, at equal steps of its parameter, and where C has corners. Values are rounded towards 0
+    /// ([`reduce`]).
+    ///
+    /// # Errors
+    /// [`JobError::Full`]; [`JobError::Range`] for fewer than 2 values or more than [`MOST_VALUES`].
+    pub fn table(&mut self, corners: [bool; 2], values: &[f32]) -> Result<(), JobError> {
+        let count = u16::try_from(values.len()).ok().filter(|n| (2..=MOST_VALUES).contains(n));
+        let [low, high] = count.ok_or(JobError::Range)?.to_le_bytes();
+        let [start, end] = corners.map(u8::from);
+        self.bytes(&[5, low, high, start | end << 1])?;
+        for chunk in values.chunks(VALUES) {
+            self.bytes(&[6])?;
+            for k in 0..VALUES {
+                self.bytes(&chunk.get(k).copied().map_or(0, reduce).to_le_bytes())?;
+            }
+        }
+        Ok(())
     }
 
     /// Ends the job; the number of bytes written.

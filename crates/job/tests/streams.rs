@@ -1,6 +1,6 @@
 //! What is written is read back; what is mutated is refused with a typed error or is a valid job; nothing panics.
 
-use fsample_job::{Command, Decoder, Encoder, JobError, JobOptions};
+use fsample_job::{Command, Decoder, Encoder, JobError, JobOptions, VALUES, expand, reduce};
 
 fn options() -> JobOptions {
     JobOptions {
@@ -23,6 +23,20 @@ fn job() -> Vec<u8> {
     encoder.begin([0.0, 1.0], true).unwrap();
     encoder.cubic([1.0, 2.0, 3.0, 4.0, 5.0, 6.5]).unwrap();
     encoder.line([-7.0, 8.0]).unwrap();
+    let len = encoder.end().unwrap();
+    bytes.truncate(len);
+    bytes
+}
+
+/// The same with lfs along both curves: 18 values take two commands.
+fn with_lfs() -> Vec<u8> {
+    let mut bytes = vec![0; 512];
+    let mut encoder = Encoder::new(&mut bytes, &options()).unwrap();
+    encoder.begin([0.0, 1.0], true).unwrap();
+    encoder.cubic([1.0, 2.0, 3.0, 4.0, 5.0, 6.5]).unwrap();
+    encoder.table([true, false], &[0.75; 18]).unwrap();
+    encoder.line([-7.0, 8.0]).unwrap();
+    encoder.table([false, true], &[1.0, f32::INFINITY]).unwrap();
     let len = encoder.end().unwrap();
     bytes.truncate(len);
     bytes
@@ -55,8 +69,71 @@ fn what_is_written_is_read() {
 }
 
 #[test]
+fn lfs_is_read_as_written_and_never_larger() {
+    let full = [reduce(0.75); VALUES];
+    let (mut rest, mut two) = ([0; VALUES], [0; VALUES]);
+    rest[..2].fill(reduce(0.75));
+    two[..2].copy_from_slice(&[reduce(1.0), reduce(f32::INFINITY)]);
+    let expected = vec![
+        Command::Options(options()),
+        Command::Begin { at: [0.0, 1.0], closed: true },
+        Command::Cubic([1.0, 2.0, 3.0, 4.0, 5.0, 6.5]),
+        Command::Table { values: 18, corners: [true, false] },
+        Command::Values(full),
+        Command::Values(rest),
+        Command::Line([-7.0, 8.0]),
+        Command::Table { values: 2, corners: [false, true] },
+        Command::Values(two),
+        Command::End,
+    ];
+    assert_eq!(read(&with_lfs()), Ok(expected));
+    for v in [0.0, 1e-30, 0.1, 0.75, 1.0, 1.992_187_5, 1.999, 12_345.678, f32::MAX] {
+        let kept = expand(reduce(v));
+        assert!(kept <= v && kept >= v * (127.0 / 128.0), "{kept} for {v}");
+    }
+    assert_eq!(expand(reduce(f32::INFINITY)).to_bits(), f32::INFINITY.to_bits());
+    assert_eq!([-1.0, f32::NAN].map(reduce), [0, 0]);
+}
+
+#[test]
+fn tables_out_of_place_are_refused() {
+    let mut room = [0; 512];
+    let mut write = |commands: &dyn Fn(&mut Encoder<'_>) -> Result<(), JobError>| {
+        let mut encoder = Encoder::new(&mut room, &options()).unwrap();
+        encoder.begin([0.0, 0.0], false).unwrap();
+        let refused = commands(&mut encoder);
+        let len = encoder.end().unwrap();
+        (refused, read(&room[..len]).err())
+    };
+    assert_eq!(write(&|e| e.table([false; 2], &[1.0; 3])), (Ok(()), Some(JobError::Order)), "no curve before it");
+    let twice = write(&|e| e.line([1.0, 1.0]).and(e.table([false; 2], &[1.0; 3])).and(e.table([false; 2], &[1.0; 3])));
+    assert_eq!(twice, (Ok(()), Some(JobError::Order)));
+    assert_eq!(write(&|e| e.line([1.0, 1.0]).and(e.table([false; 2], &[1.0]))), (Err(JobError::Range), None));
+    // One command of values too few: a line comes where a command 6 has to.
+    let whole = with_lfs();
+    let first = whole.windows(2).position(|w| w == [6, 64]).unwrap();
+    let mut cut = whole.clone();
+    cut.drain(first..first + 33);
+    assert_eq!(read(&cut).err(), Some(JobError::Order));
+    let mut more = whole.clone();
+    more[first + 33 + 5] = 1;
+    assert_eq!(read(&more).err(), Some(JobError::Range), "what is beyond the number must be 0");
+    // A value that is negative, and one that is no number.
+    for bad in [0x8000_u16, 0x7F81] {
+        let mut bytes = whole.clone();
+        bytes[first + 1..first + 3].copy_from_slice(&bad.to_le_bytes());
+        assert_eq!(read(&bytes).err(), Some(JobError::Range));
+    }
+}
+
+#[test]
 fn every_truncation_and_every_flipped_bit_is_refused() {
-    let whole = job();
+    for whole in [job(), with_lfs()] {
+        refused(whole);
+    }
+}
+
+fn refused(whole: Vec<u8>) {
     for n in 0..whole.len() {
         assert_eq!(read(&whole[..n]), Err(JobError::Truncated), "{n} bytes");
     }
@@ -72,7 +149,7 @@ fn every_truncation_and_every_flipped_bit_is_refused() {
 
 #[test]
 fn a_million_random_and_mutated_streams() {
-    let whole = job();
+    let jobs = [job(), with_lfs()];
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut random = move || {
         state ^= state << 13;
@@ -87,7 +164,7 @@ fn a_million_random_and_mutated_streams() {
         if n % 4 == 0 {
             bytes.extend((0..random() % 64).map(|_| random().to_le_bytes()[0]));
         } else {
-            bytes.extend_from_slice(&whole);
+            bytes.extend_from_slice(&jobs[(n % 2) as usize]);
             for _ in 0..=random() % 3 {
                 let at = usize::try_from(random() % (bytes.len() as u64 + 1)).unwrap();
                 match random() % 4 {

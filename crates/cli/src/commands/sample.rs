@@ -3,13 +3,14 @@
 use lineart::export::svg::Picture;
 use lineart::export::{Header, LfsRow, PathRows, SampleRow, csv, gcode, json, ply};
 
-use crate::engine::Engine;
+use crate::engine::{Engine, ModelOptions};
 use crate::errors::Failure;
+use crate::input;
+use crate::job::{self, Lfs};
 use crate::options::{Layer, SampleArgs};
 use crate::output::{Format, Target};
 use crate::progress::Progress;
 use crate::summary::{Summary, count};
-use crate::{input, job};
 
 /// Samples a drawing.
 pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
@@ -25,6 +26,10 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
         return Err(Failure::usage(format!("pen and feed options are for gcode, and the result is {}", target.format)));
     }
 
+    if args.with_lfs && target.format != Format::Fsj {
+        return Err(Failure::usage(format!("--with-lfs is for fsj, and the result is {}", target.format)));
+    }
+
     let proof = args.proof()?;
     if proof.is_some() && target.format == Format::Fsj {
         return Err(Failure::usage("a job's samples are placed on the chip: --certified says nothing about them"));
@@ -36,9 +41,13 @@ pub(crate) fn run(args: &SampleArgs) -> Result<(), Failure> {
     let bounds = args.sampling.bounds(&drawing, Engine::diagonal(&drawing))?;
     target.check_folder()?;
 
+    // A job's steps are the chip's; what the chip's lfs is compared with is as good as the tolerance.
+    let steps = options.steps;
+    let options = if target.format == Format::Fsj { ModelOptions { steps: None, ..options } } else { options };
     let engine = Engine::new(&drawing, &options)?;
     if target.format == Format::Fsj {
-        let bytes = job::bytes(&drawing, &engine, &bounds, options.steps, machine.feed)?;
+        let lfs = if args.with_lfs { Lfs::Along } else { Lfs::OnChip };
+        let bytes = job::bytes(&drawing, &engine, &bounds, steps, machine.feed, lfs)?;
         return target.write(|out| out.write_all(&bytes));
     }
     let progress = Progress::new("sampling", quiet);

@@ -48,6 +48,9 @@ pub(crate) struct SampleArgs {
     pub(crate) layers: Option<Vec<Layer>>,
     #[command(flatten)]
     pub(crate) plotter: PlotterArgs,
+    /// Send lfs along with a job, for a controller that does not compute it
+    #[arg(long, help_heading = "Job")]
+    pub(crate) with_lfs: bool,
 }
 
 /// Compute the medial axis of a drawing, as polylines.

@@ -23,7 +23,7 @@ extern "C" {
 #define FSAMPLE_PLANNER 1
 #define FSAMPLE_PLANNER_BYTES 512
 #define FSAMPLE_JOB 2
-#define FSAMPLE_JOB_BYTES 131072
+#define FSAMPLE_JOB_BYTES 118784
 
 /* How many bytes of an object are used; 0 for what there is not. */
 uint32_t fsample_bytes(int32_t what);

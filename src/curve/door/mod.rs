@@ -6,7 +6,7 @@
 //! 2. segments shorter than [`DoorOptions::short`] × diagonal are dropped and their neighbours snapped together;
 //! 3. closed paths whose ends differ by more than that get their straight closing line; open paths whose ends are that
 //!    near are closed;
-//! 4. straight cubics become lines of uniform speed, cubics with an exact cusp are split there ([`Source`](super::Source)
+//! 4. straight cubics become lines of uniform speed, cubics with an exact cusp are split there ([`Source`]
 //!    remembers);
 //! 5. repeated cubics are marked: one obstacle (`twin`);
 //! 6. ends that meet form joints: consecutive segments, and ends of open paths that are near each other;

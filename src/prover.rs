@@ -95,8 +95,8 @@ impl<'m, S: Directed> Prover<'m, S> {
     /// Bounds of the effective ε of samples, sorted as for [`Prover::judge`], with upper ≤ (1 + tolerance)·lower if the limits of the
     /// claim allow; its ε is the first one that is asked about.
     pub fn effective(&mut self, samples: &[Placed<S>], claim: &Claim<S>, tolerance: &S) -> EffectiveEpsilon<S> {
-        // Nothing is gained from pieces so small that only a part of the tolerance depends on them.
-        let finest = claim.finest.clone().max(tolerance.clone().half());
+        // Nothing is gained from pieces so small that only a small part of the tolerance depends on them.
+        let finest = claim.finest.clone().max(tolerance.clone().mul_pow2(-2));
         let decide = |epsilon: &S| -> Result<Decision<S>, BufferFull> {
             let claim = Claim { epsilon: epsilon.clone(), finest: finest.clone(), ..claim.clone() };
             Ok(match self.judge(samples, &claim, true).verdict {

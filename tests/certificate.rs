@@ -109,16 +109,13 @@ fn a_budget_of_no_cells_is_unknown() {
 #[test]
 fn the_effective_epsilon_is_bracketed() {
     let model = model(&[(true, ellipse(3.0, 1.0))]);
-    for aim in [0.3, 0.495] {
-        let samples = sampled(&model, aim);
-        let claim = Claim::new(0.5);
-        let found = Prover::new(&model, CELLS).effective(&samples, &claim, &1e-2);
-        assert!(found.lower <= found.upper && found.upper <= found.lower * 1.02, "{aim}: {found:?}");
-        // Samples are spread evenly: they may do better than was aimed at, not worse.
-        assert!(found.lower <= aim, "{aim}: {found:?}");
-        assert_eq!(verdict(&model, &samples, found.upper), Verdict::Proved, "{aim}: {found:?}");
-        assert!(matches!(verdict(&model, &samples, 0.98 * found.lower), Verdict::Refuted(_)), "{aim}: {found:?}");
-    }
+    let samples = sampled(&model, 0.3);
+    let found = Prover::new(&model, CELLS).effective(&samples, &Claim::new(0.5), &1e-2);
+    assert!(found.lower <= found.upper && found.upper <= found.lower * 1.02, "{found:?}");
+    // Samples are spread evenly: they may do better than was aimed at, not worse.
+    assert!(found.lower <= 0.3, "{found:?}");
+    assert_eq!(verdict(&model, &samples, found.upper), Verdict::Proved, "{found:?}");
+    assert!(matches!(verdict(&model, &samples, 0.98 * found.lower), Verdict::Refuted(_)), "{found:?}");
 }
 
 /// What was proved of a gap stays proved when samples are added elsewhere, and is not looked at again.

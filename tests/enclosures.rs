@@ -144,6 +144,15 @@ fn holds(shape: &Shape, share: f64, count: u32) {
 }
 
 #[test]
+fn bounds_hold_the_exact_lfs() {
+    for shape in shapes() {
+        holds(&shape, 0.01, 500);
+    }
+}
+
+/// `cargo test --release --test enclosures -- --ignored`.
+#[test]
+#[ignore = "long: 10,000 points on each shape"]
 fn bounds_hold_the_exact_lfs_at_ten_thousand_points() {
     for shape in shapes() {
         holds(&shape, 0.01, 10_000);

@@ -123,7 +123,7 @@ fn survey(rounds: u32, seed: u64) {
 
 #[test]
 fn no_verdict_is_false() {
-    survey(150, 1);
+    survey(25, 1);
 }
 
 /// `cargo test --release --test no_false_proof -- --ignored --nocapture`.

@@ -76,7 +76,8 @@ fn word(text: &str) -> String {
 
 /// The type of an `impl` line: what follows the generic parameters.
 fn type_of(line: &str) -> String {
-    let rest = line.strip_prefix("impl").unwrap_or(line);
+    // The arrow of a function type closes nothing.
+    let rest = &line.strip_prefix("impl").unwrap_or(line).replace("->", "  ");
     let mut depth = 0_usize;
     let mut start = 0;
     if rest.starts_with('<') {
@@ -103,7 +104,7 @@ mod tests {
     fn what_counts() {
         let text = "pub fn free<S: Scalar>(x: S) {}\nfn private() {}\npub(crate) fn inner() {}\n\
                     impl<S: Scalar, const N: usize> Type<S, N> {\n    pub const fn new() {}\n    fn hidden() {}\n}\n\
-                    impl<'a> Other<'a> {\n    #[inline]\n    pub fn get(&self) {}\n}\n\
+                    impl<'a, V: Fn(u32) -> S> Other<'a, V> {\n    #[inline]\n    pub fn get(&self) {}\n}\n\
                     pub trait Law: Clone {\n    fn law(&self);\n}\nimpl Law for Type {\n    fn law(&self) {}\n}\n\
                     #[cfg(test)]\nmod tests {\n    pub fn helper() {}\n}\n";
         let mut names = Vec::new();

@@ -1,7 +1,7 @@
 //! The whole chain in vectors: curve, contacts, medial polylines, index.
 //!
 //! A thin owner (feature `alloc`) around what the kernel's functions fill; it has no algorithm of its own. Programs without
-//! an allocator call the same functions with lent slices, as `tests/core_only.rs` shows.
+//! an allocator call the same functions with lent slices, as `tests/kernel/core_only.rs` shows.
 
 use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};

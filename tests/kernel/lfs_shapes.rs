@@ -4,9 +4,7 @@
 //! Béziers (a circle of four cubics has minimal lfs 0.9921 R). f64 at tolerance 1e-7 must be right to 1e-6, f32 at 1e-4 to
 //! 1e-3. The same must hold after moving, turning, reversing and splitting; scaling by powers of two changes no bit.
 
-mod common;
-
-use common::{
+use crate::common::{
     Model, Random, Stroke, Strokes, closed, cubic, ellipse, line, mapped, open, placed, polygon, pt, quarters,
     reversed, rounded, sharpest, stadium, stick,
 };

@@ -1,8 +1,6 @@
 //! Where a curve touches itself: outlines that nearly coincide, and plain crossings.
 
-mod common;
-
-use common::{Stroke, closed, curve_model, ellipse, mapped, polygon, pt};
+use crate::common::{Stroke, closed, curve_model, ellipse, mapped, polygon, pt};
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::contact::{place, reach};
 use feature_sampling::curve::door::DoorOptions;

@@ -5,9 +5,7 @@
 //! below 2·d_min, where no sample can be put in between; grading holds between all neighbouring gaps; the ρ-condition is
 //! checked against the judge's lfs. Same input, same output.
 
-mod common;
-
-use common::{
+use crate::common::{
     Model, Stroke, Strokes, closed, cubic, ellipse, everything, open, polygon, raw, rounded, shipped, stadium, stick,
 };
 use feature_sampling::bezier::Cubic;

@@ -2,7 +2,6 @@
 //!
 //! `FSAMPLE_DATA` names the folder with the drawings and truth data that do not ship (default `../shared/data` beside the
 //! repository); tests that need it say that they skip where it is absent. `FSAMPLE_ALL=1` asks for every drawing and ε.
-#![allow(dead_code, reason = "each test program uses its own part")]
 
 use std::path::{Path, PathBuf};
 

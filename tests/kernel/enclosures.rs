@@ -150,7 +150,7 @@ fn bounds_hold_the_exact_lfs() {
     }
 }
 
-/// `cargo test --release --test enclosures -- --ignored`.
+/// `cargo test --release --test kernel enclosures:: -- --ignored`.
 #[test]
 #[ignore = "long: 10,000 points on each shape"]
 fn bounds_hold_the_exact_lfs_at_ten_thousand_points() {

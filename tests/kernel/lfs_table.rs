@@ -1,9 +1,7 @@
 //! Samples from a table of lfs are true ε-samples, however coarse the table and its numbers are: by the judge that shares no
 //! code with the kernel.
 
-mod common;
-
-use common::{Model, Strokes, closed, cubic, ellipse, open, polygon, raw, stick};
+use crate::common::{Model, Strokes, closed, cubic, ellipse, open, polygon, raw, stick};
 use feature_sampling::curve::given::{self, Extent};
 use feature_sampling::curve::{Curve, CurveParam, JointKind, Segment};
 use feature_sampling::lfs::FeatureSize;

@@ -2,9 +2,7 @@
 //! handles, cusps, crossings, overlaps, ends that meet. Nothing may panic; outputs are finite and in order. The seed is
 //! fixed, so that every run judges the same drawings; `PROPTEST_CASES` and `PROPTEST_RNG_SEED` ask for others.
 
-mod common;
-
-use common::{Model, Stroke, curve_model, pt, rounded};
+use crate::common::{Model, Stroke, curve_model, pt, rounded};
 use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::SliceStore;
 use feature_sampling::curve::CurveParam;
@@ -127,7 +125,7 @@ proptest! {
 fn the_end_of_a_loop_touches_its_corner() {
     let first = Cubic::new(pt(0.0, 1.0), pt(0.0, 0.0), pt(0.0, 0.0), pt(0.0, 0.0));
     let second = Cubic::new(pt(0.0, 0.0), pt(3.0, 2.0), pt(4.0, 1.0), pt(0.0, 0.0));
-    let stroke = common::open(vec![first, second]);
+    let stroke = crate::common::open(vec![first, second]);
     holds::<f32>(&[stroke], 1e-5, &Resolution::Tolerance(1e-2)).expect("a drawing like any other");
 }
 
@@ -136,10 +134,10 @@ fn nothing_is_an_error() {
     let nothing: [Stroke; 0] = [];
     let paths: Vec<(bool, &[Cubic<f64>])> = nothing.iter().map(|s| (s.closed, s.cubics.as_slice())).collect();
     assert!(CurveModel::new(&paths, &DoorOptions::default()).is_err());
-    let point = common::stick([1.0, 1.0], [1.0, 1.0]);
+    let point = crate::common::stick([1.0, 1.0], [1.0, 1.0]);
     assert!(CurveModel::new(&[(false, &point.cubics)], &DoorOptions::default()).is_err());
     // Beside a path that is none, others are kept.
-    let model = curve_model(&[point, common::stick([0.0, 0.0], [1.0, 0.0])], &DoorOptions::default());
+    let model = curve_model(&[point, crate::common::stick([0.0, 0.0], [1.0, 0.0])], &DoorOptions::default());
     assert_eq!(model.curve().paths.len(), 1);
 }
 

@@ -4,9 +4,7 @@
 //! skips where the data folder is absent (`FSAMPLE_DATA`). Disks are compared on the drawings that ship, at random places
 //! and next to joints, where the two one-sided curvatures and the far branches meet.
 
-mod common;
-
-use common::{Model, Random, Stroke, curve_model, data, doors, load, raw, shipped, stem, svg_files};
+use crate::common::{Model, Random, Stroke, curve_model, data, doors, load, raw, shipped, stem, svg_files};
 use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::medial::{Foot, Side, tangent_disk};
 use feature_sampling::model::CurveModel;
@@ -21,7 +19,7 @@ fn radius(model: &CurveModel<f64>, path: usize, cubic: usize, t: f64, left: bool
 /// differences, whose denominator is known to the noise of two coordinates.
 fn disk(model: &CurveModel<f64>, path: usize, cubic: usize, t: f64, left: bool) -> Option<(f64, f64)> {
     let curve = model.curve();
-    let at = common::place(model, path, cubic, t)?;
+    let at = crate::common::place(model, path, cubic, t)?;
     let side = if left { Side::Left } else { Side::Right };
     let foot = Foot::normal(&curve, at, side)?;
     let found = tangent_disk(&curve, &foot);
@@ -88,7 +86,7 @@ fn compare_disks(name: &str, strokes: &[Stroke], random: &mut Random, rounds: u3
                     for left in [true, false] {
                         // Lines run at uniform speed on C, dropped cubics are not on it.
                         let Some((mine, error)) = disk(&model, path, cubic, t, left) else { continue };
-                        let at = common::place(&model, path, cubic, t).expect("a place");
+                        let at = crate::common::place(&model, path, cubic, t).expect("a place");
                         let p = model.curve().point(&at).expect("a point");
                         let theirs = checker.radius(path, cubic, t, left);
                         let q = checker.point(path, cubic, t);
@@ -125,10 +123,10 @@ fn disks_agree_with_brute_force_on_shipped_drawings() {
     for (name, strokes) in shipped() {
         let cubics: usize = strokes.iter().map(|s| s.cubics.len()).sum();
         // The judge's own medial axis of the larger drawings takes minutes.
-        if cubics > 50 && !common::everything() {
+        if cubics > 50 && !crate::common::everything() {
             continue;
         }
-        compare_disks(&name, &strokes, &mut random, if common::everything() { 12 } else { 3 });
+        compare_disks(&name, &strokes, &mut random, if crate::common::everything() { 12 } else { 3 });
     }
 }
 
@@ -139,8 +137,8 @@ fn disks_agree_with_brute_force_on_extra_drawings() {
     for file in svg_files(&folder) {
         let strokes = load(&file);
         let cubics: usize = strokes.iter().map(|s| s.cubics.len()).sum();
-        if cubics <= 40 || common::everything() {
-            compare_disks(&stem(&file), &strokes, &mut random, if common::everything() { 12 } else { 2 });
+        if cubics <= 40 || crate::common::everything() {
+            compare_disks(&stem(&file), &strokes, &mut random, if crate::common::everything() { 12 } else { 2 });
         }
     }
 }

@@ -126,7 +126,7 @@ fn no_verdict_is_false() {
     survey(25, 1);
 }
 
-/// `cargo test --release --test no_false_proof -- --ignored --nocapture`.
+/// `cargo test --release --test kernel no_false_proof:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "long: 10,000 curves"]
 fn no_verdict_is_false_of_ten_thousand() {

@@ -3,10 +3,8 @@
 //! In slices of stated size and in `ArrayVec`s, in f32 and f64, the results equal those of the `Vec` wrappers to the bit;
 //! a buffer that is too small, whichever it is, is an error and never a panic.
 
-mod common;
-
+use crate::common::{Stroke, cubic, curve_model, ellipse, open, rounded, stick};
 use arrayvec::ArrayVec;
-use common::{Stroke, cubic, curve_model, ellipse, open, rounded, stick};
 use feature_sampling::buffer::{BufferFull, SliceStore, Store};
 use feature_sampling::curve::contact::{self, Contact};
 use feature_sampling::curve::door::{self, CurveBuffers, CurveError, DoorOptions, PathInput};

@@ -1,9 +1,7 @@
 //! The walk with equal steps, one foot at a time: the same medial points whatever the budget, and no call hands out more of
 //! them than it may look at.
 
-mod common;
-
-use common::{Strokes, closed, cubic, ellipse, open, polygon, quarters, stick};
+use crate::common::{Strokes, closed, cubic, ellipse, open, polygon, quarters, stick};
 use feature_sampling::buffer::{BufferFull, Sink, SliceStore};
 use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::medial::uniform::{Progress, UniformWalk};
@@ -44,7 +42,7 @@ impl Sink<MedialPoint<f64>> for Counted {
 #[test]
 fn the_budget_changes_nothing() {
     for (name, strokes) in drawings() {
-        let model = common::curve_model(&strokes, &DoorOptions::default());
+        let model = crate::common::curve_model(&strokes, &DoorOptions::default());
         let curve = model.curve();
         let relevance = medial::walk::relevance(&curve);
         for steps in [1, 16, 33, 300] {
@@ -80,7 +78,7 @@ fn the_budget_changes_nothing() {
 
 #[test]
 fn no_path_and_no_room() {
-    let model = common::curve_model(&[ellipse(0.0, 0.0, 8.0, 3.0)], &DoorOptions::default());
+    let model = crate::common::curve_model(&[ellipse(0.0, 0.0, 8.0, 3.0)], &DoorOptions::default());
     let curve = model.curve();
     let mut none = UniformWalk::new(&curve, 9, 16, model.contacts(), 5);
     assert_eq!(none.step(1, &mut Vec::new()), Ok(Progress::Done));

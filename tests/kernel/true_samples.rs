@@ -5,9 +5,7 @@
 //! tolerance of 1e-5, and all of its drawings; those above 60 cubics only with `FSAMPLE_ALL=1`. The floored condition stands in only where the
 //! definitions allow it, and the share of curve under the floor is printed. The checker's tolerance is its own error, 1e-8.
 
-mod common;
-
-use common::{
+use crate::common::{
     Model, Stroke, Strokes, closed, cubic, data, ellipse, everything, line, load, open, polygon, pt, raw, reversed,
     shipped, stadium, stem, stick, svg_files,
 };
@@ -219,7 +217,7 @@ fn starts_anywhere() {
 
 /// What drawings contain and samplers trip over.
 fn special_inputs() -> Vec<(&'static str, Strokes)> {
-    let half = common::quarters(0.0, 0.0, 2.0, 2.0);
+    let half = crate::common::quarters(0.0, 0.0, 2.0, 2.0);
     let wave = [[0.0, 0.0], [2.0, 4.0], [5.0, -3.0], [7.0, 1.0]];
     let kink = 0.05_f64.to_radians();
     let turned =

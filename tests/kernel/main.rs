@@ -1,0 +1,24 @@
+//! The kernel, asked from outside: a module for each promise.
+//!
+//! One program, because the kernel is generic: each test program would compile it again for the scalars it asks about, and the
+//! compiler's time would go up more than tenfold. `cargo test --test kernel true_samples::` runs one module.
+
+mod bounds;
+mod certificate;
+mod common;
+mod contacts;
+mod core_only;
+mod empty_disks;
+mod enclosures;
+mod interval;
+mod lfs_shapes;
+mod lfs_table;
+mod nearest;
+mod no_false_proof;
+mod polynomial;
+mod predicates;
+mod properties;
+mod resumable;
+mod true_samples;
+mod truth;
+mod uniform;

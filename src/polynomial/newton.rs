@@ -65,12 +65,27 @@ pub(crate) fn in_bracket<S: Scalar>(
     start: S,
     target: impl Fn(&S) -> S,
 ) -> S {
+    let start = if lo < start && start < hi { start } else { S::midpoint(&lo, &hi) };
+    match converge(&f, step, (lo.clone(), hi.clone()), start, &target) {
+        Ok(x) => x,
+        Err(x) => narrowing(f, lo, hi, true, x, target).x,
+    }
+}
+
+/// The zero that steps lead to from a start in (lo, hi), or the point where they ceased to shrink or to stay inside.
+///
+/// As long as steps shrink nothing is here that a processor could not foresee.
+#[inline]
+pub(crate) fn converge<S: Scalar>(
+    f: impl Fn(&S) -> (S, S, S),
+    step: impl Fn(&S, &S, &S) -> S,
+    (lo, hi): (S, S),
+    mut x: S,
+    target: impl Fn(&S) -> S,
+) -> Result<S, S> {
     let mut converging = false;
     let mut previous = hi.clone() - &lo;
-    let mut x = if lo < start && start < hi { start } else { S::midpoint(&lo, &hi) };
     let (resolution, rounding) = (S::unit_roundoff().twice(), S::unit_roundoff().mul_pow2(2));
-    // As long as steps shrink inside the bracket it need not be narrowed, and nothing is there that a processor could not
-    // foresee.
     for _ in 0..S::BITS {
         let (value, slope, bend) = f(&x);
         let step = step(&value, &slope, &bend);
@@ -78,26 +93,20 @@ pub(crate) fn in_bracket<S: Scalar>(
         let step = step.abs();
         let is_finest = step <= next.clone().abs() * &resolution;
         if !(lo <= next && next <= hi && (is_finest || step.clone().twice() <= previous)) {
-            if value.is_zero() {
-                return x;
-            }
-            break;
+            return if value.is_zero() { Ok(x) } else { Err(x) };
         }
         let rest = ((step.clone() / &previous).square() + &rounding) * &step;
         x = next;
         if is_finest || (converging && rest <= target(&x)) {
-            if step.is_zero() && !value.is_zero() {
-                break;
-            }
-            return x;
+            return if step.is_zero() && !value.is_zero() { Err(x) } else { Ok(x) };
         }
         previous = step;
         converging = true;
     }
-    narrowing(f, lo, hi, true, x, target).x
+    Err(x)
 }
 
-/// The same where steps went astray: each value narrows the bracket.
+/// The zero in [lo, hi] where steps went astray: each value narrows the bracket.
 #[cold]
 pub(crate) fn narrowing<S: Scalar>(
     f: impl Fn(&S) -> (S, S, S),

@@ -1,12 +1,8 @@
-//! The closest point of a cubic (paper, Section 7.1).
-//!
-//! F(t) = |B(t) − q|² has degree 6; its minimum over an interval is at an end or where the quintic
-//! g = F'/2 = (B − q)·B' changes from − to +. All critical points are the roots of g ([`critical_points`]), but for the
-//! closest one most need not be found. Branch and bound on the Bernstein form of g does with less:
+//! The closest point by branch and bound on the Bernstein form of g, the quintic that is half the derivative of F.
 //!
 //! * no sign variation: F is monotone, the ends of the piece have it;
 //! * one variation from + to −: a maximum, the ends have it again;
-//! * one variation from − to +: one minimum, found by Newton's method in the bracket;
+//! * one variation from − to +: one minimum, found by Halley's method in the bracket;
 //! * anywhere, F has the degree-6 Bernstein coefficients Fᵢ₊₁ = Fᵢ + h gᵢ/3 (gᵢ those of g, h the length of the piece),
 //!   whose least is a lower bound of F on the piece: if it is not below the best value so far, the piece is done.
 //!
@@ -17,17 +13,12 @@
 //! **Noise.** Signs of coefficients within their rounding error say nothing. Where one matters, g is written anew from the
 //! curve on the stretch in question, where its errors are in proportion to the stretch, and halving goes on until what is
 //! left of them cannot matter.
-//!
-//! **Accuracy.** The returned `distance_sq` is |B(t) − q|² for the returned t as evaluated. It exceeds the true minimum by
-//! at most a few roundings of itself plus the square of the rounding error of B(t), in relation to the size of B − q on
-//! the curve: pruning allows for the noise of the lower bound.
-//!
-//! Coordinates must be finite and so must the squares of their differences, times 50; the curve's door sees to it.
 
-use super::hull::hull_keeps_away;
-use super::{Cubic, PowerBasis};
+use super::view::View;
+use super::{Nearest, distance_quintic};
+use crate::bezier::PowerBasis;
 use crate::buffer::Keep;
-use crate::geometry::{Point, Vector};
+use crate::geometry::Point;
 use crate::polynomial::Polynomial;
 use crate::polynomial::bernstein::{self, Signs};
 use crate::polynomial::newton::{careful_halley, in_bracket, quick_halley};
@@ -37,88 +28,28 @@ use arrayvec::ArrayVec;
 /// Pieces waiting. Depth first: one for each halving; what does not fit is left at the value of its ends.
 const PENDING: usize = 64;
 
-/// A closest point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest<S> {
-    /// Parameter on the cubic, in the interval asked for.
-    pub t: S,
-    /// B(t).
-    pub point: Point<S>,
-    /// |B(t) − q|², in squared user units.
-    pub distance_sq: S,
+/// The closest point to q with parameter in [0, 1].
+#[cold]
+pub(super) fn on_unit<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> Nearest<S> {
+    let search = Search::new(b, q);
+    let g = bernstein::on_unit(&search.quintic.coefficients);
+    search.search(g, S::zero(), S::one())
 }
 
-/// The quintic (B − q)·B', half the derivative of the squared distance, in powers of t.
-#[inline]
-pub fn distance_quintic<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> Polynomial<S, 6> {
-    let v = b.origin.minus(q);
-    let [a1, a2, a3] = &b.a;
-    let three = S::int(3);
-    Polynomial::new([
-        v.dot(a1),
-        v.dot(a2).twice() + &a1.norm_sq(),
-        (v.dot(a3) + &a1.dot(a2)) * &three,
-        a1.dot(a3).mul_pow2(2) + &a2.norm_sq().twice(),
-        a2.dot(a3) * &S::int(5),
-        a3.norm_sq() * &three,
-    ])
-}
-
-/// All parameters in [0, 1] where the distance from q is stationary, ascending: minima, maxima and flat points, up to the
-/// attainable error of [`Polynomial::roots_in_unit`]. None where every parameter is stationary (a cubic that is a point).
-pub fn critical_points<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> ArrayVec<S, 5> {
-    let roots = distance_quintic(b, q).roots_in_unit().unwrap_or_default();
-    roots.into_iter().take(5).map(|r| r.value).collect()
-}
-
-/// The closest point to q with parameter in [0, 1]; among equally close ones, any.
-#[inline]
-pub fn nearest<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> Nearest<S> {
-    let view = View::new(b, q);
-    let g = bernstein::on_unit(&view.quintic.coefficients);
-    view.search(g, S::zero(), S::one())
-}
-
-/// The closest point to q with parameter in [t0, t1] ⊂ [0, 1]; where t0 ≥ t1, the point at t0.
-pub fn nearest_between<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>, t0: &S, t1: &S) -> Nearest<S> {
-    let view = View::new(b, q);
+/// The closest point to q with parameter in [t0, t1]; where t0 ≥ t1, the point at t0.
+pub(super) fn between<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>, t0: &S, t1: &S) -> Nearest<S> {
+    let search = Search::new(b, q);
     if t0 < t1 {
-        let g = bernstein::on_interval(&view.quintic, t0, t1);
-        view.search(g, t0.clone(), t1.clone())
+        let g = bernstein::on_interval(&search.quintic, t0, t1);
+        search.search(g, t0.clone(), t1.clone())
     } else {
-        view.answer(t0.clone(), view.distance_sq(t0))
+        search.answer(t0.clone(), search.view.distance_sq(t0))
     }
 }
 
-/// The closest point to q on any of the cubics that is closer than `bound_sq` (squared; pass infinity for no bound), with
-/// the index of its cubic; `None` if there is none. The first of equally close ones wins.
-///
-/// Cubics whose hull is known to keep away from the best so far are not solved.
-pub fn nearest_of<'c, S: Scalar + 'c>(
-    cubics: impl IntoIterator<Item = &'c Cubic<S>>,
-    q: &Point<S>,
-    bound_sq: S,
-) -> Option<(usize, Nearest<S>)> {
-    let mut best = None;
-    let mut bound = bound_sq;
-    for (i, cubic) in cubics.into_iter().enumerate() {
-        if hull_keeps_away(cubic, q, &bound) {
-            continue;
-        }
-        let found = nearest(&cubic.power_basis(), q);
-        if found.distance_sq < bound {
-            bound = found.distance_sq.clone();
-            best = Some((i, found));
-        }
-    }
-    best
-}
-
-/// A cubic seen from a query point.
-struct View<'b, S> {
-    basis: &'b PowerBasis<S>,
-    /// B(0) − q.
-    offset: Vector<S>,
+/// A search for the least F.
+struct Search<'b, S> {
+    view: View<'b, S>,
     quintic: Polynomial<S, 6>,
     /// Bound of the error of the quintic's Bernstein coefficients, times 10, on [0, 1] or a part of it.
     noise: S,
@@ -141,43 +72,24 @@ struct Stretch<S> {
     floor: S,
 }
 
-impl<'b, S: Scalar> View<'b, S> {
+impl<'b, S: Scalar> Search<'b, S> {
     #[inline]
     fn new(basis: &'b PowerBasis<S>, q: &Point<S>) -> Self {
         let quintic = distance_quintic(basis, q);
         let weight = quintic.weight();
         let is_tame = Polynomial::<S, 6>::is_comfortable(&weight);
-        Self { basis, offset: basis.origin.minus(q), quintic, noise: noise(&weight), is_tame }
-    }
-
-    /// F(t).
-    #[inline]
-    fn distance_sq(&self, t: &S) -> S {
-        self.offset.plus_scaled(t, &self.drift(t)).norm_sq()
-    }
-
-    /// g(t), g'(t) and g''(t)/2 from the curve itself: their errors are those of B(t) − q and B'(t), much smaller than those of
-    /// the quintic's coefficients where the curve is slow or q is near.
-    #[inline]
-    fn slope(&self, t: &S) -> (S, S, S) {
-        let [a1, a2, a3] = &self.basis.a;
-        let three = S::int(3);
-        let away = self.offset.plus_scaled(t, &a1.plus_scaled(t, &a2.plus_scaled(t, a3)));
-        let bend = a2.plus_scaled(t, &a3.scaled(&three));
-        let velocity = a1.plus_scaled(t, &a2.plus(&bend));
-        let change = velocity.norm_sq() + &away.dot(&bend).twice();
-        (away.dot(&velocity), change, (velocity.dot(&bend) + &away.dot(a3)) * &three)
+        Self { view: View::new(basis, q), quintic, noise: noise(&weight), is_tame }
     }
 
     #[inline]
     fn answer(&self, t: S, distance_sq: S) -> Nearest<S> {
-        Nearest { point: self.basis.eval(&t), t, distance_sq }
+        Nearest { point: self.view.basis.eval(&t), t, distance_sq }
     }
 
     /// Branch and bound on [lo, hi], with the Bernstein coefficients of g there.
     #[inline]
     fn search(&self, g: [S; 6], lo: S, hi: S) -> Nearest<S> {
-        let (start, end) = (self.distance_sq(&lo), self.distance_sq(&hi));
+        let (start, end) = (self.view.distance_sq(&lo), self.view.distance_sq(&hi));
         let mut best = if end < start { (hi.clone(), end) } else { (lo.clone(), start.clone()) };
         // the last one is looked at next
         let mut pending: ArrayVec<Stretch<S>, PENDING> = ArrayVec::new();
@@ -194,7 +106,7 @@ impl<'b, S: Scalar> View<'b, S> {
                 pending.truncate(pending.len().saturating_sub(1));
                 continue;
             }
-            let value = self.distance_sq(&mid);
+            let value = self.view.distance_sq(&mid);
             if value < best.1 {
                 best = (mid.clone(), value.clone());
             }
@@ -278,13 +190,13 @@ impl<'b, S: Scalar> View<'b, S> {
             if self.is_tame { quick_halley(value, slope, bend) } else { careful_halley(value, slope, bend) }
         };
         let zero = in_bracket(
-            |t| self.slope(t),
+            |t| self.view.slope(t),
             step,
             (stretch.lo.clone(), stretch.hi.clone()),
             start,
             |_| resolution.clone(),
         );
-        let value = self.distance_sq(&zero);
+        let value = self.view.distance_sq(&zero);
         if value < best.1 {
             *best = (zero, value);
         }
@@ -292,7 +204,7 @@ impl<'b, S: Scalar> View<'b, S> {
     }
 }
 
-impl<S: Scalar> View<'_, S> {
+impl<S: Scalar> Search<'_, S> {
     /// The signs of a stretch some of whose coefficients are noise, and whether they can be relied on.
     ///
     /// F cannot fall below what these signs promise by more than noise times width. Where that is more than a few roundings
@@ -307,12 +219,12 @@ impl<S: Scalar> View<'_, S> {
         let is_harmless = |noise: &S| noise.clone() * &width <= allowed;
         if !is_harmless(&stretch.noise) {
             let mut scale = S::one();
-            let a = self.basis.taylor(&stretch.lo).map(|v| {
+            let a = self.view.basis.taylor(&stretch.lo).map(|v| {
                 scale = scale.clone() * &width;
                 v.scaled(&scale)
             });
             // with the query at the origin
-            let start = self.offset.plus_scaled(&stretch.lo, &self.drift(&stretch.lo));
+            let start = self.view.away(&stretch.lo);
             let local = PowerBasis { origin: Point::new(start.x, start.y), a };
             let quintic = distance_quintic(&local, &Point::new(S::zero(), S::zero()));
             stretch.g = bernstein::on_unit(&quintic.coefficients).map(|c| c / &width);
@@ -323,13 +235,6 @@ impl<S: Scalar> View<'_, S> {
         }
         let signs = Signs::of(&stretch.g, &stretch.noise);
         (signs, signs.decided() == Signs::full::<6>())
-    }
-
-    /// (B(t) − B(0))/t.
-    #[inline]
-    fn drift(&self, t: &S) -> Vector<S> {
-        let [a1, a2, a3] = &self.basis.a;
-        a1.plus_scaled(t, &a2.plus_scaled(t, a3))
     }
 }
 

@@ -11,9 +11,10 @@
 //! **Width of clusters.** Isolation answers with stretches where |p| is some roundings at most. What is in there for the
 //! coefficients as given is looked at in twice the precision.
 //!
-//! * If all real roots are within 2ρ of the mean, or there is none, it is one cluster, and 2ρ on both sides of its mean are
-//!   its bracket: no wider than four attainable errors ρ = min over j of (η/|cⱼ|)^(1/j), η = u·Σ|aⱼ||x|ʲ, cⱼ the Taylor
-//!   coefficients there. No power of a fraction is needed: r ≤ 2ρ says |cⱼ|(r/2)ʲ ≤ η for all j.
+//! * If there is none, it is what one rounding of each coefficient cannot rule out: see below.
+//! * If all real roots are within 2ρ of the mean, it is one cluster, and 2ρ on both sides of its mean are its bracket: no wider
+//!   than four attainable errors ρ = min over j of (η/|cⱼ|)^(1/j), η = u·Σ|aⱼ||x|ʲ, cⱼ the Taylor coefficients there. No
+//!   power of a fraction is needed: r ≤ 2ρ says |cⱼ|(r/2)ʲ ≤ η for all j.
 //! * If there are as many as there seemed to be, they can be told apart and are reported each by itself.
 //! * Otherwise some have left the real line. Then it is told apart what one rounding of each coefficient leaves: what isolation
 //!   cannot resolve is a stretch with |p| ≤ 2η(1 + small). Where p is like c·∏(x − zᵢ) with k factors, Pólya's
@@ -22,7 +23,7 @@
 
 use super::bernstein::{Given, Piece};
 use super::isolate::{Found, Isolated, isolate};
-use super::newton::{halley, narrowing};
+use super::newton::{narrowing, quick_halley};
 use super::roots::push;
 use super::{Polynomial, Root, RootKind, Roots, twofold};
 use crate::scalar::Scalar;
@@ -51,7 +52,7 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
     for _ in 0..S::BITS {
         let (plain, slope, bend) = p.jet(&x);
         let value = if is_precise { twofold::value(p, &x) } else { plain };
-        let step = halley(&value, &slope, &bend);
+        let step = quick_halley(&value, &slope, &bend);
         let next = x.clone() - &step;
         let step = step.abs();
         let size = next.clone().abs();
@@ -59,12 +60,19 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         if !(lower <= next && next <= upper && (is_finest || step.clone().twice() <= previous)) {
             break;
         }
+        // a product that underflowed is no step
+        if step.is_zero() && !value.is_zero() {
+            break;
+        }
         let curving = (step.clone() / &previous).square() * &step;
         x = next;
         if is_precise {
-            let unsure = wobble(p, &x) / &slope.clone().abs() * &step;
-            if is_finest || curving + &unsure <= size * &resolution {
-                found = Some((x.clone(), slope));
+            // curving + wobble·step/|slope| < size·resolution, the wobble being 2N²u·Σ|aⱼ||x|ʲ/|x|, without divisions
+            let magnitude = p.magnitude(&x);
+            let scale = slope.clone().abs() * &size;
+            let unsure = wobble::<S, N>() * &magnitude * &step;
+            if is_finest || curving * &scale + &unsure < scale * &size * &resolution {
+                found = Some((x.clone(), slope, magnitude));
                 break;
             }
             previous = step;
@@ -75,7 +83,7 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         }
         is_converging = true;
     }
-    let (x, slope) = found.unwrap_or_else(|| {
+    let (x, slope, magnitude) = found.unwrap_or_else(|| {
         let precise = |x: &S| {
             let (_, slope, bend) = p.jet(x);
             (twofold::value(p, x), slope, bend)
@@ -83,9 +91,10 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         // The slope is not as good as the value where roots are close: nothing less than a last step below the resolution
         // will do.
         let zero = narrowing(precise, lower.clone(), upper.clone(), rising, x, |_| S::zero());
-        (zero.x, zero.slope)
+        let magnitude = p.magnitude(&zero.x);
+        (zero.x, zero.slope, magnitude)
     });
-    let radius = spread(p, &x, &slope);
+    let radius = spread::<S, N>(&x, &slope, &magnitude);
     Root {
         lower: lower.max(x.clone() - &radius),
         upper: upper.min(x.clone() + &radius),
@@ -94,22 +103,22 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
     }
 }
 
-/// What p'(x) may be off by.
+/// 2N²u: times the magnitude, divided by |x|, what p'(x) may be off by.
 #[inline]
-fn wobble<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S) -> S {
+fn wobble<S: Scalar, const N: usize>() -> S {
     let n = i32::try_from(2 * N * N).unwrap_or(i32::MAX);
-    S::int(n) * &S::unit_roundoff() * &p.magnitude(x) / &x.clone().abs()
+    S::int(n) * &S::unit_roundoff()
 }
 
 /// What a simple root may be off by: one unit in the last place of x (1.4u|x| comes to that, rounded), and what values in
 /// twice the precision leave.
 #[inline]
-pub(super) fn spread<S: Scalar, const N: usize>(p: &Polynomial<S, N>, x: &S, slope: &S) -> S {
+pub(super) fn spread<S: Scalar, const N: usize>(x: &S, slope: &S, magnitude: &S) -> S {
     let slope = slope.clone().abs();
     if slope.is_zero() {
         return S::infinity();
     }
-    let rest = twofold::residue::<S, N>() * &p.magnitude(x) / &slope;
+    let rest = twofold::residue::<S, N>() * magnitude / &slope;
     (rest + &(x.clone().abs() * &S::ratio(7, 5))) * &S::unit_roundoff()
 }
 
@@ -137,22 +146,34 @@ fn cluster<S: Scalar, const N: usize>(
     count: usize,
     roots: &mut Roots<S, N>,
 ) {
-    let Isolated { lower, upper, .. } = isolated;
+    let Isolated { lower, upper, before, after, .. } = isolated;
     let together = group(p, isolated, count);
-    if lower >= upper || together.kind == RootKind::Simple {
+    let is_simple = together.kind == RootKind::Simple;
+    let is_sure = is_simple && *before != 0 && *after != 0;
+    if lower >= upper || is_sure {
         return push(roots, together);
     }
     let apart = closer(p, lower, upper, Given::Exactly);
+    let multiplicity = |roots: &[Root<S>]| -> usize { roots.iter().map(|r| usize::from(r.kind.multiplicity())).sum() };
+    if is_simple && multiplicity(&apart) <= 1 {
+        return push(roots, together);
+    }
+    let once = || closer(p, lower, upper, Given::Once);
+    if apart.is_empty() {
+        let once = once();
+        if !once.is_empty() {
+            return once.into_iter().for_each(|root| push(roots, root));
+        }
+    }
     let radius = attainable(p, &together.value, upper.clone() - lower);
     let (from, to) = (together.value.clone() - &radius, together.value.clone() + &radius);
-    let multiplicity = |roots: &[Root<S>]| -> usize { roots.iter().map(|r| usize::from(r.kind.multiplicity())).sum() };
-    if apart.iter().all(|root| from <= root.lower && root.upper <= to) {
+    if !is_simple && apart.iter().all(|root| from <= root.lower && root.upper <= to) {
         let (lower, upper) = (lower.clone().max(from), upper.clone().min(to));
         push(roots, Root { lower, upper, ..together });
     } else if multiplicity(&apart) >= usize::from(together.kind.multiplicity()) {
         apart.into_iter().for_each(|root| push(roots, root));
     } else {
-        closer(p, lower, upper, Given::Once).into_iter().for_each(|root| push(roots, root));
+        once().into_iter().for_each(|root| push(roots, root));
     }
 }
 
@@ -241,7 +262,7 @@ fn at_end<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S,
         }
         x = (x.clone() - &(twofold::value(p, &x) / &slope)).clamp(lower.clone(), upper.clone());
     }
-    let radius = spread(p, &x, &slope);
+    let radius = spread::<S, N>(&x, &slope, &p.magnitude(&x));
     let (lower, upper) = (lower.clone().max(x.clone() - &radius), upper.clone().min(x.clone() + &radius));
     Root { value: x, lower, upper, kind: RootKind::Simple }
 }

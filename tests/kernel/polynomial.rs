@@ -348,3 +348,34 @@ proptest::proptest! {
         proptest::prop_assert_eq!(all.iter().map(|r| r.kind.multiplicity()).sum::<u8>() % 2, 1, "a quintic has an odd number");
     }
 }
+
+/// Two cases of the survey of nasty polynomials (ten thousand of each class): three roots that just can be told apart, with the end of
+/// the interval beside the first one; and a triple root of which rounding has left two complex ones and one outside of the stretch
+/// that noise hides.
+#[test]
+fn triple_clusters_at_an_end_and_taken_apart() {
+    let p = Polynomial::new([
+        0.932_696_606_315_453_7,
+        -6.606_294_650_728_676,
+        17.419_744_107_073_52,
+        -20.708_832_190_732_323,
+        10.586_794_337_959_57,
+        -1.841_808_825_141_464_6,
+    ]);
+    let found = p.roots_between(&0.494_778_517_393_056_45, &1.482_030_166_361_556_5).expect("finite");
+    let truth = [0.494_778_630_205, 0.494_796_694_166, 0.494_819_938_07];
+    assert_eq!(found.len(), 3, "{found:?}");
+    check(&found, &truth, 1e-11, "beside an end");
+
+    let p = Polynomial::new([
+        -4.469_700_774_739_357,
+        19.978_888_051_590_886,
+        -35.111_333_573_203_33,
+        30.253_548_104_588_994,
+        -12.751_793_639_717_464,
+        2.100_767_094_543_430_2,
+    ]);
+    let found = p.real_roots().expect("finite");
+    let near = found.iter().find(|r| (r.value - 0.923_602_53).abs() < 1e-5);
+    assert!(near.is_some_and(|r| r.kind == RootKind::Even), "a near miss at 0.92360: {found:?}");
+}

@@ -2,7 +2,7 @@
 
 use lineart::drawing::Drawing;
 use lineart::export::number::Readable;
-use lineart::mesh::drawn::{Drawn, noding};
+use lineart::mesh::drawn::{Drawn, Grading, noding};
 use lineart::mesh::smooth::smooth;
 use lineart::mesh::{self, Mesh, Outcome, Size};
 
@@ -42,7 +42,7 @@ pub(crate) fn meshed(
     let drawn = Drawn::new(&drawing.paths, &samples, &noding)
         .map_err(|error| limit(format!("{error}; ask for less detail with --min-distance")))?;
     let size = match (args.graded, longest.is_finite()) {
-        (true, _) => drawn.graded(longest),
+        (true, _) => drawn.graded(longest, &Grading { lfs_factor: args.lfs_factor, growth: args.growth }),
         (false, true) => Size::Uniform(longest),
         (false, false) => Size::Unbounded,
     };

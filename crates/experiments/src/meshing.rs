@@ -16,7 +16,7 @@ use feature_sampling::medial::Resolution;
 use feature_sampling::model::{CurveModel, MedialModel};
 use feature_sampling::sampling::{Condition, SamplingOptions};
 use lineart::drawing::DrawingPath;
-use lineart::mesh::drawn::{Drawn, noding, sampled};
+use lineart::mesh::drawn::{Drawn, Grading, noding, sampled};
 use lineart::mesh::{Mesh, Options, Size, mesh};
 use lineart::simulate::{Problem, Simulation, Solution};
 
@@ -137,7 +137,7 @@ impl Subject {
         let size = match mode {
             Mode::Uniform => Size::Uniform(density * diagonal),
             Mode::Nonuniform => Size::Unbounded,
-            Mode::Graded => drawn.graded(density * diagonal),
+            Mode::Graded => drawn.graded(density * diagonal, &Grading::default()),
         };
         let outcome = mesh(&drawn.lines(), &drawn.frame, &Options { size, ..Options::default() });
         let outcome = outcome.map_err(|e| self.failed(e))?;

@@ -87,8 +87,8 @@ impl Experiment for Table4 {
             format!("Drawings: {}. The paper's five are Croco, Lion and three sketches, of which only Croco is public.", names.join(", ")),
             "−Δu = 1 with u = 0 on all lines and on the rectangle, in linear elements. Samples: ε = 1, distances from 0.01 to 0.1 \
              (nonuniform: to the density). *uniform*: no edge longer than the density. *nonuniform*: only the smallest angle is \
-             bounded. *graded*: edges no longer than the density d, four times lfs at the samples, and d (d/c)^(ω/π−1) where lines \
-             leave an opening of ω, c a fourteenth of the rectangle's diagonal; the last two grow with the distance."
+             bounded. *graded*: edges no longer than the density d, 16 times lfs at the samples, and d (d/c)^(ω/π−1) where lines \
+             leave an opening of ω, c a fourteenth of the rectangle's diagonal; the last two grow with the distance, by twice of it."
                 .to_owned(),
             format!("Seconds are {} on one core: *sampling_s* samples and nodes, without the medial axis; *simulation_s* is matrix, \
                      factor and solution, the least of five.", clock::kind()),

@@ -19,9 +19,12 @@ use feature_sampling::sampling::{Condition, SamplingOptions};
 use lineart::drawing::{Drawing, load};
 use lineart::export::mesh::{MeshRows, vtk};
 use lineart::mesh::curved::bend;
-use lineart::mesh::drawn::{Drawn, noding, sampled};
+use lineart::mesh::drawn::{Drawn, Grading, noding, sampled};
 use lineart::mesh::smooth::smooth;
 use lineart::mesh::{Lines, MeshError, Options, Size, mesh};
+
+/// Graded more than by default.
+const FINE: Grading = Grading { lfs_factor: 4.0, growth: 1.0 };
 
 /// Bounds of samples in shares of the diagonal.
 struct Sampling {
@@ -76,7 +79,7 @@ fn random_strokes_are_meshed() {
 fn shipped_drawings_in_three_ways() {
     for name in ["leaf_01.svg", "elephant_outline_matthe_r.svg", "bee.svg", "celtic_triskell_01.svg"] {
         let (drawn, diagonal) = drawn(&shipped(name), &COARSE);
-        for size in [Size::Unbounded, Size::Uniform(0.03 * diagonal), drawn.graded(0.1 * diagonal)] {
+        for size in [Size::Unbounded, Size::Uniform(0.03 * diagonal), drawn.graded(0.1 * diagonal, &FINE)] {
             let options = Options { size, ..Options::default() };
             let outcome = mesh(&drawn.lines(), &drawn.frame, &options).expect("noded");
             assert!(!outcome.capped && outcome.unrefined.is_empty(), "{name}: {:?}", outcome.unrefined);
@@ -117,7 +120,7 @@ fn the_judge_sees_what_is_wrong() {
 fn same_input_same_bytes() {
     let bytes = || {
         let (drawn, diagonal) = drawn(&shipped("bee.svg"), &COARSE);
-        let options = Options { size: drawn.graded(0.05 * diagonal), ..Options::default() };
+        let options = Options { size: drawn.graded(0.05 * diagonal, &FINE), ..Options::default() };
         let outcome = mesh(&drawn.lines(), &drawn.frame, &options).expect("noded");
         let path_of = drawn.path_of();
         let rows = MeshRows { mesh: &outcome.mesh, path_of: &path_of, names: &[], values: None, source: "bee.svg" };
@@ -141,7 +144,7 @@ fn strokes_of_no_room() {
         r#"<circle cx="0" cy="0" r="1"/><circle cx="2" cy="0" r="1"/><circle cx="0" cy="0" r="1"/>"#,
     ] {
         let (drawn, diagonal) = drawn(&text(svg), &Sampling { epsilon: 0.5, least: None, most: None });
-        for size in [Size::Unbounded, Size::Uniform(0.05 * diagonal), drawn.graded(0.2 * diagonal)] {
+        for size in [Size::Unbounded, Size::Uniform(0.05 * diagonal), drawn.graded(0.2 * diagonal, &FINE)] {
             let options = Options { size, ..Options::default() };
             let outcome = mesh(&drawn.lines(), &drawn.frame, &options).expect("noded");
             assert!(!outcome.capped && outcome.unrefined.is_empty(), "{svg}: {:?}", outcome.unrefined);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use lineart::mesh;
+use lineart::mesh::drawn::Grading;
 use lineart::reconstruct::Algorithm;
 use lineart::units::Length;
 
@@ -135,8 +136,8 @@ fn algorithm_names() -> clap::builder::PossibleValuesParser {
 ///
 /// The drawing is sampled, strokes that cross, touch or repeat each other are cut where they meet, and a rectangle around it
 /// is triangulated: every line between samples is made of edges, no angle is below --min-angle (unless two lines meet at a
-/// smaller one), no edge is longer than --max-edge. With --graded, triangles are small where the drawing has detail and grow
-/// with the distance from it.
+/// smaller one), no edge is longer than --max-edge. With --graded, triangles are small where the drawing has detail
+/// (--lfs-factor) and grow with the distance from it (--growth).
 ///
 /// Without -o, a table triangle,x0,y0,x1,y1,x2,y2 goes to standard output.
 #[derive(Args, Debug)]
@@ -244,6 +245,12 @@ pub(crate) struct TriangleArgs {
     /// Small triangles at small features, at ends and at corners, growing with the distance from them
     #[arg(long)]
     pub(crate) graded: bool,
+    /// Graded: a triangle at a sample may be as large as its lfs, times this
+    #[arg(long, value_name = "A", default_value_t = Grading::default().lfs_factor, requires = "graded", allow_negative_numbers = true)]
+    pub(crate) lfs_factor: f64,
+    /// Graded: what a unit of distance from such a place adds
+    #[arg(long, value_name = "B", default_value_t = Grading::default().growth, requires = "graded", allow_negative_numbers = true)]
+    pub(crate) growth: f64,
     /// Move vertices inside to more even places, N times over, where no bound breaks
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1000))]
     pub(crate) smooth: u16,
@@ -260,6 +267,8 @@ impl TriangleArgs {
             let angle = self.min_angle;
             return Err(Failure::usage(format!("--min-angle is {angle}; it lies between 0 and {most} degrees")));
         }
+        above("lfs-factor", 0.0, self.lfs_factor)?;
+        above("growth", 0.0, self.growth)?;
         self.max_edge.map_or(Ok(()), |length| above("max-edge", 0.0, length.value()).map(drop))
     }
 }

@@ -25,16 +25,25 @@ pub const PADDING: f64 = 0.1;
 /// But no less than this share of its diagonal: a single straight stroke has no height.
 const LEAST_PADDING: f64 = 0.03;
 
-/// What lfs counts in graded sizes: a triangle at a sample may be as large as its lfs, times this. Less makes triangles
-/// that the error of the Poisson problem does not repay; found by experiment (`fsample reproduce figure10`).
-pub const GRADED_SHARE: f64 = 4.0;
-
-/// What a unit of distance adds to graded sizes.
-pub const GRADED_GROWTH: f64 = 1.0;
-
 /// The length c of graded sizes at ends and corners, in diagonals of the rectangle: an end of a stroke asks for d²/c. Larger
 /// ones gain on drawings with few ends and lose on those with many; found by experiment, as above.
 pub const GRADED_SCALE: f64 = 1.0 / 14.0;
+
+/// How graded sizes follow the drawing. The values by default are those at which the error of the Poisson problem is least for
+/// the number of triangles, by experiment (`fsample reproduce figure10`); smaller ones make more of the details.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grading {
+    /// What lfs counts: a triangle at a sample may be as large as its lfs, times this. 16 by default.
+    pub lfs_factor: f64,
+    /// What a unit of distance adds. 2 by default.
+    pub growth: f64,
+}
+
+impl Default for Grading {
+    fn default() -> Self {
+        Self { lfs_factor: 16.0, growth: 2.0 }
+    }
+}
 
 /// How lines are noded for meshing: the pitch is a hundred-thousandth of the diagonal, or a hundredth of the smallest distance
 /// of samples if that is more. Ten times the noder's own default: between two strokes that run beside each other at a pitch,
@@ -105,12 +114,11 @@ impl Drawn {
         self.owners.iter().map(|owner| owner.path).collect()
     }
 
-    /// The graded size, nowhere above `largest`: by lfs ([`GRADED_SHARE`]), by ends and corners ([`GRADED_SCALE`]), and by
-    /// the distance from both ([`GRADED_GROWTH`]).
-    pub fn graded(&self, largest: f64) -> Size {
+    /// The graded size, nowhere above `largest`: by lfs, by ends and corners ([`GRADED_SCALE`]), and by the distance from both.
+    pub fn graded(&self, largest: f64, grading: &Grading) -> Size {
         let mut wishes = opening::wishes(&self.points, &self.edges, largest, GRADED_SCALE * self.frame.extent().norm());
-        wishes.extend(self.wishes.iter().map(|wish| Wish { size: GRADED_SHARE * wish.size, ..*wish }));
-        Size::Graded(Graded::new(wishes, largest, GRADED_GROWTH))
+        wishes.extend(self.wishes.iter().map(|wish| Wish { size: grading.lfs_factor * wish.size, ..*wish }));
+        Size::Graded(Graded::new(wishes, largest, grading.growth))
     }
 
     /// The values that are given at the vertices of a mesh of these lines: along paths, `of_path` by their index; along the

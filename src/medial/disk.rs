@@ -351,13 +351,14 @@ impl<S: Scalar> Smallest<'_, S> {
         let three = S::int(3);
         let nine = S::int(9);
         let a12 = a1.clone() + &a2;
+        // All seven at once: mostly all of them hold, and they are of one pattern.
         below(a0.clone(), l.b.clone(), 1)
-            && below(a3.clone(), r.b.clone(), 1)
-            && below(a0.clone() + &a1, d0.dot(&d1).twice(), 2)
-            && below(a2.clone() + &a3, d2.dot(d3).twice(), 2)
-            && below(a1.clone() * &three + &a0 + &a2, d0.dot(&d2).twice() + &(d1.norm_sq() * &three), 5)
-            && below(a2 * &three + &a1 + &a3, d1.dot(d3).twice() + &(d2.norm_sq() * &three), 5)
-            && below(a12 * &nine + &a0 + &a3, (d0.dot(d3) + &(d1.dot(&d2) * &nine)).twice(), 20)
+            & below(a3.clone(), r.b.clone(), 1)
+            & below(a0.clone() + &a1, d0.dot(&d1).twice(), 2)
+            & below(a2.clone() + &a3, d2.dot(d3).twice(), 2)
+            & below(a1.clone() * &three + &a0 + &a2, d0.dot(&d2).twice() + &(d1.norm_sq() * &three), 5)
+            & below(a2 * &three + &a1 + &a3, d1.dot(d3).twice() + &(d2.norm_sq() * &three), 5)
+            & below(a12 * &nine + &a0 + &a3, (d0.dot(d3) + &(d1.dot(&d2) * &nine)).twice(), 20)
     }
 
     /// The chord to the point makes an angle with the tangent that is more than rounding: a straight line bounds no disk.

@@ -46,7 +46,8 @@ fn kind<S: Scalar, const N: usize>(
     let simple = noise.clone() / &slope.clone().abs();
     let double = (noise / &bend.abs()).sqrt();
     let is_simple = simple <= double;
-    let reach = (if is_simple { simple } else { double }).mul_pow2(2);
+    // a simple root that makes p so small is within one of these, of two close to each other one may be farther away
+    let reach = if is_simple { simple } else { double.mul_pow2(2) };
     if known.any(|x| (x - at).abs() <= reach) {
         return None;
     }

@@ -365,7 +365,7 @@ fn triple_clusters_at_an_end_and_taken_apart() {
     let found = p.roots_between(&0.494_778_517_393_056_45, &1.482_030_166_361_556_5).expect("finite");
     let truth = [0.494_778_630_205, 0.494_796_694_166, 0.494_819_938_07];
     assert_eq!(found.len(), 3, "{found:?}");
-    check(&found, &truth, 1e-11, "beside an end");
+    check::<6>(&found, &truth, 1e-11, "beside an end");
 
     let p = Polynomial::new([
         -4.469_700_774_739_357,

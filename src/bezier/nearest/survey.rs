@@ -43,6 +43,9 @@ const PENDING: usize = 8;
 /// Parts looked at.
 const LOOKS: usize = 40;
 
+/// With fewer bits hardly anything passes the bounds for rounding, and nothing is tried.
+const FEWEST_BITS: u32 = 40;
+
 /// What is known of a candidate.
 enum Verdict<S> {
     /// Nothing is closer.
@@ -57,7 +60,7 @@ enum Verdict<S> {
 pub(super) fn proved<S: Scalar>(b: &PowerBasis<S>, q: &Point<S>) -> Option<Nearest<S>> {
     let view = View::new(b, q);
     let size = b.a.iter().fold(view.offset.norm_sq(), |sum, a| sum + &a.norm_sq());
-    if !Polynomial::<S, 6>::is_comfortable(&size) {
+    if S::BITS < FEWEST_BITS || !Polynomial::<S, 6>::is_comfortable(&size) {
         return None;
     }
     let mut from = view.best_place();

@@ -1,6 +1,7 @@
 //! The closest point of a cubic against brute force: queries all over the control box, next to the curve, and next to
 //! centres of curvature, where the quintic has nearly multiple roots and solvers lose answers.
 
+use crate::common::Random;
 use feature_sampling::bezier::nearest::{
     Nearest, critical_points, distance_quintic, nearest, nearest_between, nearest_of,
 };
@@ -8,16 +9,7 @@ use feature_sampling::bezier::{Cubic, PowerBasis};
 use feature_sampling::geometry::Point;
 use feature_sampling::scalar::Scalar;
 
-/// A small generator: the tests run the same everywhere.
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let x = self.0 ^ (self.0 >> 29);
-        f64::from(u32::try_from(x.wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 32).expect("32 bits")) / 4_294_967_296.0
-    }
-
     fn point(&mut self) -> Point<f64> {
         Point::new(self.unit() * 100.0, self.unit() * 100.0)
     }

@@ -75,6 +75,16 @@ fn random_strokes_are_meshed() {
     }
 }
 
+/// A piece at the end of a line was taken for a triangle's side between two lines, the line itself being the second of them, and the
+/// triangle was left flat: one set in 140. Found by the survey.
+#[test]
+fn a_line_is_no_neighbour_of_itself() {
+    for (kind, seed) in [(0, 785), (0, 989), (1, 42), (1, 402)] {
+        let verdict = soup::examine(kind, seed);
+        assert!(verdict.is_ok(), "{}, seed {seed}: {verdict:?}", strokes::KINDS[kind]);
+    }
+}
+
 #[test]
 fn shipped_drawings_in_three_ways() {
     for name in ["leaf_01.svg", "elephant_outline_matthe_r.svg", "bee.svg", "celtic_triskell_01.svg"] {

@@ -382,10 +382,10 @@ impl<'a> Refinement<'a> {
 
     /// The sharp apex of a line from which another line leads to an input vertex.
     fn other_end(&self, line: u32, vertex: u32) -> Option<u32> {
-        let line = self.lines[line as usize];
-        let apexes = line.ends.into_iter().zip(line.sharp).filter(|(_, sharp)| *sharp).map(|(end, _)| end);
+        let Line { ends, sharp } = self.lines[line as usize];
+        let apexes = ends.into_iter().zip(sharp).filter(|(_, sharp)| *sharp).map(|(end, _)| end);
         let mut joined = apexes.filter(|&end| end != vertex);
-        joined.find(|&end| self.is_joined(end, vertex))
+        joined.find(|&end| self.is_joined(end, vertex, line))
     }
 
     /// The sharp apex that lines join to both of two input vertices.
@@ -400,12 +400,13 @@ impl<'a> Refinement<'a> {
         found
     }
 
-    /// One line, cut or not, joins two input vertices: the last piece at the second vertex belongs to a line from the first.
-    fn is_joined(&self, end: u32, vertex: u32) -> bool {
+    /// A line other than this one, cut or not, joins two input vertices: the last piece at the second belongs to a line from the
+    /// first.
+    fn is_joined(&self, end: u32, vertex: u32, other: u32) -> bool {
         let mut found = false;
         self.mesh.around(vertex, |h| {
             let line = self.mesh.line(h);
-            found |= line != NONE && self.lines[line as usize].ends.contains(&end);
+            found |= line != NONE && line != other && self.lines[line as usize].ends.contains(&end);
         });
         found
     }

@@ -400,13 +400,13 @@ impl<'a> Refinement<'a> {
         found
     }
 
-    /// A line other than this one, cut or not, joins two input vertices: the last piece at the second belongs to a line from the
-    /// first.
-    fn is_joined(&self, end: u32, vertex: u32, other: u32) -> bool {
+    /// A line, cut or not, but not the given one joins two input vertices: the last piece at the second belongs to a line from
+    /// the first.
+    fn is_joined(&self, end: u32, vertex: u32, except: u32) -> bool {
         let mut found = false;
         self.mesh.around(vertex, |h| {
             let line = self.mesh.line(h);
-            found |= line != NONE && line != other && self.lines[line as usize].ends.contains(&end);
+            found |= line != NONE && line != except && self.lines[line as usize].ends.contains(&end);
         });
         found
     }

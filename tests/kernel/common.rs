@@ -124,6 +124,18 @@ impl Random {
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
+
+    /// 0 … n − 1.
+    pub(crate) fn below(&mut self, n: u32) -> u32 {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to n")]
+        let k = (self.unit() * f64::from(n)) as u32;
+        k
+    }
+
+    /// In a square of this size.
+    pub(crate) fn point(&mut self, size: f64) -> Point<f64> {
+        pt(size * self.unit(), size * self.unit())
+    }
 }
 
 /// The kernel's curve.

@@ -3,6 +3,7 @@
 //! A verdict can be right although the proof behind it is void, because the searches that propose bounds are good. So the proofs
 //! are asked here directly, with radii that are too large as often as not.
 
+use crate::common::Random;
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::curve::{CurveParam, EndId, ideal};
@@ -13,21 +14,7 @@ use feature_sampling::medial::disk::tangent_disk;
 use feature_sampling::medial::{Foot, Side};
 use feature_sampling::model::CurveModel;
 
-/// Numbers from 0 to 1, the same every time.
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: u32) -> u32 {
-        #[allow(clippy::cast_possible_truncation, reason = "below n")]
-        let k = (self.unit() * f64::from(n)) as u32;
-        k
-    }
-
     /// A short or a long piece of [0, 1], now and then up to an end.
     fn span(&mut self) -> [f64; 2] {
         let length = [0.5, 0.1, 0.01, 1e-3][self.below(4) as usize];
@@ -42,7 +29,7 @@ impl Random {
 
 /// Three cubics in a row with a smooth joint between the first two, and a stroke of its own: all that forms tell apart.
 fn strokes(random: &mut Random) -> CurveModel<f64> {
-    let mut point = || Point::new(10.0 * random.unit(), 10.0 * random.unit());
+    let mut point = || random.point(10.0);
     let (a, b, c, d) = (point(), point(), point(), point());
     let ahead = d.minus(&c);
     let (f, g, h) = (point(), point(), point());

@@ -1,5 +1,6 @@
 //! Enclosures of lfs and of the reach: they hold what is known exactly, and are as narrow as was asked.
 
+use crate::common::Random;
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::CurveParam;
 use feature_sampling::curve::door::DoorOptions;
@@ -210,15 +211,6 @@ fn without_steps_bounds_are_wide_and_hold() {
         let p = model.curve().point(&CurveParam { segment: 0, t: 0.3 }).expect("a place");
         let (truth, bounds) = ((shape.lfs)(&p), prover.lfs(&p, &0.0, &(shape.lfs)(&p), &precision));
         assert!(bounds.lower <= truth && truth <= bounds.upper, "{}: {truth} {bounds:?}", shape.name);
-    }
-}
-
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

@@ -10,12 +10,8 @@ use feature_sampling::geometry::Point;
 use feature_sampling::scalar::Scalar;
 
 impl Random {
-    fn point(&mut self) -> Point<f64> {
-        Point::new(self.unit() * 100.0, self.unit() * 100.0)
-    }
-
     fn cubic(&mut self) -> Cubic<f64> {
-        Cubic::new(self.point(), self.point(), self.point(), self.point())
+        Cubic::new(self.point(100.0), self.point(100.0), self.point(100.0), self.point(100.0))
     }
 
     /// A query of class 0 (in the box), 1 (within 1e-3 of the curve's size of it), 2 (the same of a centre of curvature).
@@ -25,7 +21,7 @@ impl Random {
         let jitter =
             |r: &mut Self, p: Point<f64>| Point::new(p.x + (r.unit() - 0.5) * 0.2, p.y + (r.unit() - 0.5) * 0.2);
         match class {
-            0 => self.point(),
+            0 => self.point(100.0),
             1 => jitter(self, b.eval(&t)),
             _ => {
                 let (d, dd) = (b.derivative(&t), b.second_derivative(&t));
@@ -33,7 +29,7 @@ impl Random {
                 if centre.is_finite() && centre.x.abs() < 1e4 && centre.y.abs() < 1e4 {
                     jitter(self, centre)
                 } else {
-                    self.point()
+                    self.point(100.0)
                 }
             }
         }
@@ -122,7 +118,7 @@ fn intervals_and_batches() {
         assert_eq!(nearest_of(&cubics, &q, singly), None, "nothing closer than the closest");
     }
     let b = random.cubic().power_basis();
-    let at = nearest_between(&b, &random.point(), &0.5, &0.5);
+    let at = nearest_between(&b, &random.point(100.0), &0.5, &0.5);
     assert_eq!((at.t, at.point), (0.5, b.eval(&0.5)), "an empty interval");
 }
 

@@ -3,6 +3,7 @@
 //! What a verdict says is compared with a dense look at the curve: distances from all samples, lfs from medial polylines that were found
 //! in plain numbers, without any of the code that proves. Those are good to 1e-3.
 
+use crate::common::Random;
 use feature_sampling::bezier::Cubic;
 use feature_sampling::certificate::{Claim, Placed, Verdict};
 use feature_sampling::curve::door::DoorOptions;
@@ -12,27 +13,10 @@ use feature_sampling::model::{CurveModel, MedialModel};
 use feature_sampling::prover::Prover;
 use feature_sampling::sampling::{Condition, SamplingOptions};
 
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: u32) -> u32 {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to n")]
-        let k = (self.unit() * f64::from(n)) as u32;
-        k.min(n - 1)
-    }
-
-    fn point(&mut self) -> Point<f64> {
-        Point::new(10.0 * self.unit(), 10.0 * self.unit())
-    }
-
     /// One or two cubics in a row, with a smooth joint or a corner; now and then closed.
     fn path(&mut self) -> (bool, Vec<Cubic<f64>>) {
-        let first = Cubic::new(self.point(), self.point(), self.point(), self.point());
+        let first = Cubic::new(self.point(10.0), self.point(10.0), self.point(10.0), self.point(10.0));
         let [start, out, handle, end] = first.points;
         let kind = self.below(4);
         if kind == 0 {
@@ -41,10 +25,10 @@ impl Random {
         let ahead = |by: f64, from: &Point<f64>, at: &Point<f64>| {
             Point::new(at.x + by * (at.x - from.x), at.y + by * (at.y - from.y))
         };
-        let leaving = if self.below(4) == 0 { self.point() } else { ahead(0.3 + self.unit(), &handle, &end) };
+        let leaving = if self.below(4) == 0 { self.point(10.0) } else { ahead(0.3 + self.unit(), &handle, &end) };
         let second = match kind {
             1 => Cubic::new(end, leaving, ahead(0.3 + self.unit(), &out, &start), start),
-            _ => Cubic::new(end, leaving, self.point(), self.point()),
+            _ => Cubic::new(end, leaving, self.point(10.0), self.point(10.0)),
         };
         (kind == 1, vec![first, second])
     }

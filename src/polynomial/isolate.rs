@@ -25,6 +25,9 @@ use arrayvec::ArrayVec;
 /// those without roots are thrown out; the others are fewer than N by the rule of signs, but for noise.
 const PENDING: usize = 32;
 
+/// Brackets within brackets that are searched once more.
+const NESTED: usize = 12;
+
 /// A piece with undecided signs is written anew when all its coefficients are below 2^NOISY times the noise. Without this
 /// margin the search would follow the place where |p| crosses the noise level, which is not a root, down to the last bit.
 const NOISY: i32 = 4;
@@ -82,7 +85,7 @@ struct Record<S, F> {
     /// Sign of p at the right end of what has been searched so far.
     sign: i8,
     /// Signs of p from the upper ends of brackets that are searched once more, innermost last.
-    beyond: ArrayVec<(S, i8), PENDING>,
+    beyond: ArrayVec<(S, i8), NESTED>,
 }
 
 impl<S: Scalar, F: FnMut(Isolated<S>)> Record<S, F> {

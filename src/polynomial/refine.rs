@@ -153,27 +153,23 @@ fn cluster<S: Scalar, const N: usize>(
     if lower >= upper || is_sure {
         return push(roots, together);
     }
-    let apart = closer(p, lower, upper, Given::Exactly);
-    let multiplicity = |roots: &[Root<S>]| -> usize { roots.iter().map(|r| usize::from(r.kind.multiplicity())).sum() };
-    if is_simple && multiplicity(&apart) <= 1 {
+    let mut apart = closer(p, lower, upper, Given::Exactly);
+    let seen: usize = apart.iter().map(|root| usize::from(root.kind.multiplicity())).sum();
+    if is_simple && seen <= 1 {
         return push(roots, together);
-    }
-    let once = || closer(p, lower, upper, Given::Once);
-    if apart.is_empty() {
-        let once = once();
-        if !once.is_empty() {
-            return once.into_iter().for_each(|root| push(roots, root));
-        }
     }
     let radius = attainable(p, &together.value, upper.clone() - lower);
     let (from, to) = (together.value.clone() - &radius, together.value.clone() + &radius);
-    if !is_simple && apart.iter().all(|root| from <= root.lower && root.upper <= to) {
+    let are_near = apart.iter().all(|root| from <= root.lower && root.upper <= to);
+    let is_one = !is_simple && !apart.is_empty() && are_near;
+    if !is_one && seen < usize::from(together.kind.multiplicity()) {
+        apart = closer(p, lower, upper, Given::Once);
+    }
+    if is_one || apart.is_empty() {
         let (lower, upper) = (lower.clone().max(from), upper.clone().min(to));
         push(roots, Root { lower, upper, ..together });
-    } else if multiplicity(&apart) >= usize::from(together.kind.multiplicity()) {
-        apart.into_iter().for_each(|root| push(roots, root));
     } else {
-        once().into_iter().for_each(|root| push(roots, root));
+        apart.iter().for_each(|root| push(roots, root.clone()));
     }
 }
 

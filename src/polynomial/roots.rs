@@ -192,10 +192,17 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
 
 /// Appends the roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.
 fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, roots: &mut Roots<S, N>) {
-    let border = border::<S>();
-    if hi <= border {
-        return search(p, Piece::seated(p, lo, hi, Given::Rounded), Given::Rounded, roots);
+    if hi <= border() {
+        search(p, Piece::seated(p, lo, hi, Given::Rounded), Given::Rounded, roots);
+    } else {
+        search_beyond(p, lo, hi, roots);
     }
+}
+
+/// The same where reciprocals are needed. A call of its own, so that its lists do not lie on the stack where they are not.
+#[inline(never)]
+fn search_beyond<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, roots: &mut Roots<S, N>) {
+    let border = border::<S>();
     let one = S::one();
     let mut near = Roots::new();
     if lo < border {

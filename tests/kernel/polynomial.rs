@@ -379,3 +379,35 @@ fn triple_clusters_at_an_end_and_taken_apart() {
     let near = found.iter().find(|r| (r.value - 0.923_602_53).abs() < 1e-5);
     assert!(near.is_some_and(|r| r.kind == RootKind::Even), "a near miss at 0.92360: {found:?}");
 }
+
+/// Two more: a triple cluster whose first root is 1.6e-7 outside of the interval, so that its end is one, and not the next root inside;
+/// and one outside beside two that rounding has made complex.
+#[test]
+fn an_end_beside_the_other_roots_of_a_cluster() {
+    let p = Polynomial::new([
+        -0.044_011_053_505_487_77,
+        0.578_489_460_457_305_6,
+        -2.755_819_077_029_912,
+        5.606_942_148_031_96,
+        -4.341_189_158_429_237,
+        1.0,
+    ]);
+    let lower = 0.253_977_398_108_793_5;
+    let found = p.roots_between(&lower, &0.415_288_073_912_349_6).expect("finite");
+    check::<6>(&found, &[lower, 0.253_983_549_390, 0.253_993_316_090], 1e-11, "the end is a root");
+
+    let p = Polynomial::new([
+        -1.645_754_197_687_413_5,
+        7.696_976_442_158_281,
+        -14.212_013_146_514_611,
+        12.914_720_295_363_27,
+        -5.753_874_861_233_342,
+        1.0,
+    ]);
+    let lower = 0.921_559_513_479_444_5;
+    let found = p.roots_between(&lower, &2.547_895_046_347_874).expect("finite");
+    let kinds: Vec<_> = found.iter().map(|r| r.kind).collect();
+    assert_eq!(kinds, [RootKind::Simple, RootKind::Even, RootKind::Simple, RootKind::Simple], "{found:?}");
+    assert_eq!(found[0].value, lower);
+    assert!((found[1].value - 0.921_669_79).abs() < 1e-6, "the near miss: {found:?}");
+}

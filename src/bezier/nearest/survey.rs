@@ -16,8 +16,8 @@
 //! u|B − q|√W, which is below uW or below uF. Bernstein coefficients, twelve times too large, are off by less than 2⁸uW apart from
 //! that. Asked for is g(t)² ≤ (16u)²W(W + F), hence |r| ≤ 32u(W + √(WF)), and coefficients above 2²⁰uW, or above 2¹⁰uW·W/Q(0) where
 //! Q(0) is below 2⁻¹⁰W, down to 2⁻²⁰W. Then with σ = Q(0)/2W: for |s| ≤ σ, Q is above Q(0)/2, and F falls at most r²/2Q(0) below F(t),
-//! as it may below any point that is stationary to the precision of r: by (32u)²(W + F)·W/Q(0), the square of a few roundings of the
-//! curve's size where it is not flat there. For |s| > σ, |s|Q > 32uW pays for the first part of r, and the second takes
+//! as it may below any point that is stationary to the precision of r: by (32u)²(W + F)·W/Q(0), the square of some dozen roundings of
+//! the curve's size where it is not flat there. For |s| > σ, |s|Q > 32uW pays for the first part of r, and the second takes
 //! (32u)²WF/4Q at most: 2⁻⁸uF.
 
 use super::Nearest;

@@ -15,6 +15,7 @@
 
 use super::foot::Foot;
 use super::pencil::{Pencil, Values};
+use crate::bezier::Cubic;
 use crate::bezier::newton::falling_zero;
 use crate::buffer::Keep;
 use crate::curve::{Arc, Curve, CurveParam, Segment};
@@ -63,7 +64,12 @@ struct Search<'f, S> {
 }
 
 /// What a [`Guard`] remembers of an arc.
-type Guarded<S> = (u32, Aabb<S>);
+#[derive(Debug)]
+struct Guarded<S> {
+    arc: u32,
+    bounds: Aabb<S>,
+    cubic: Cubic<S>,
+}
 
 /// Arcs that a guard can hold; where more meet its disk, it is not used.
 const GUARDED: usize = 24;
@@ -119,8 +125,10 @@ impl<S: Scalar> Guard<S> {
             self,
             |g, bounds| g.valid && bounds.distance_sq(&g.centre) <= reach_sq,
             |g, leaf, bounds| {
-                for (arc, _) in curve.arcs_in(leaf) {
-                    g.valid &= g.arcs.try_push((arc, bounds.clone())).is_ok();
+                for (index, arc) in curve.arcs_in(leaf) {
+                    let Some(segment) = curve.segment(arc.segment) else { continue };
+                    let cubic = segment.cubic.part(&arc.span[0], &arc.span[1]);
+                    g.valid &= g.arcs.try_push(Guarded { arc: index, bounds: bounds.clone(), cubic }).is_ok();
                 }
             },
         );
@@ -147,8 +155,9 @@ pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guar
         search.visit(curve, hint);
     }
     if guard.holds(&search.smallest) {
-        for (arc, bounds) in &guard.arcs {
-            if guard.hint != Some(*arc) && search.smallest.meets(bounds, curve.noise) {
+        for Guarded { arc, bounds, cubic } in &guard.arcs {
+            let near = guard.hint != Some(*arc) && search.smallest.meets(bounds, curve.noise);
+            if near && !search.smallest.is_left_out_by(cubic, curve.noise) {
                 search.visit(curve, *arc);
             }
         }
@@ -260,6 +269,26 @@ impl<S: Scalar> Smallest<'_, S> {
         let x = if d.x >= zero { &bounds.max.x } else { &bounds.min.x };
         let y = if d.y >= zero { &bounds.max.y } else { &bounds.min.y };
         d.dot(&Point::new(x.clone(), y.clone()).minus(&self.foot.point)) > -noise.clone()
+    }
+
+    /// Proves, cheaply and far from tightly, that all of a cubic lies outside the current disk: the coefficients of |q−c|²
+    /// in Bernstein's basis are at least r², by more than rounding and the coordinates' noise. `false` says nothing.
+    #[inline]
+    fn is_left_out_by(&self, cubic: &Cubic<S>, noise: &S) -> bool {
+        let [q0, q1, q2, q3] = cubic.points.each_ref().map(|p| p.minus(&self.centre));
+        let (n0, n1, n2, n3) = (q0.norm_sq(), q1.norm_sq(), q2.norm_sq(), q3.norm_sq());
+        let rounding = (n0.clone() + &n1 + &n2 + &n3) * &S::unit_roundoff().mul_pow2(5);
+        let least = (noise.clone().mul_pow2(3) + &self.radius).square() + &rounding;
+        let three = S::int(3);
+        let nine = S::int(9);
+        let (five, ten) = (least.clone() * &S::int(5), least.clone() * &S::int(10));
+        (n0 >= least)
+            & (n3 >= least)
+            & (q0.dot(&q1) >= least)
+            & (q2.dot(&q3) >= least)
+            & (q0.dot(&q2).twice() + &(n1 * &three) >= five)
+            & (q1.dot(&q3).twice() + &(n2 * &three) >= five)
+            & (q1.dot(&q2) * &nine + &q0.dot(&q3) >= ten)
     }
 
     fn search_arc(&mut self, pencil: &Pencil<S>, segment: &Segment<S>, arc: &Arc<S>, index: u32) {

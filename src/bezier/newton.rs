@@ -9,11 +9,14 @@ use crate::scalar::Scalar;
 
 /// A zero of a function between `lo` and `hi`, where it changes from positive to negative.
 ///
-/// `f` returns value and derivative. Each step halves the bracket unless Newton's step stays well inside it; the loop ends
-/// when the step is below `width`, or after 2·BITS + 16 steps at the latest. The caller has seen f(lo) > 0 > f(hi).
+/// `f` returns value and derivative. The search starts at `x`, between `lo` and `hi`. Each step halves the bracket unless
+/// Newton's stays inside it. The loop ends when the step is below `width`, or the next would be: two steps s and s' of Newton's
+/// in a row promise one of s'·(s'/s)², since each is proportional to the square of the one before; or after 2·BITS + 16 steps
+/// at the latest. The caller has seen f(lo) > 0 > f(hi).
 #[inline]
-pub(crate) fn falling_zero<S: Scalar>(mut lo: S, mut hi: S, width: &S, f: impl Fn(&S) -> (S, S)) -> S {
-    let mut x = S::midpoint(&lo, &hi);
+pub(crate) fn falling_zero<S: Scalar>(mut lo: S, mut x: S, mut hi: S, width: &S, f: impl Fn(&S) -> (S, S)) -> S {
+    // The step before, if it was Newton's.
+    let mut last_sq = S::zero();
     for _ in 0..2 * S::BITS + 16 {
         let (value, slope) = f(&x);
         if value > S::zero() {
@@ -24,12 +27,16 @@ pub(crate) fn falling_zero<S: Scalar>(mut lo: S, mut hi: S, width: &S, f: impl F
             return x;
         }
         let newton = x.clone() - &(value / &slope);
-        let next = if slope < S::zero() && newton > lo && newton < hi { newton } else { S::midpoint(&lo, &hi) };
+        let inside = slope < S::zero() && newton > lo && newton < hi;
+        let next = if inside { newton } else { S::midpoint(&lo, &hi) };
         let step = (next.clone() - &x).abs();
+        let step_sq = step.clone().square();
         x = next;
-        if step <= *width || hi.clone() - &lo <= *width {
+        let settled = inside && step_sq.clone() * &step <= last_sq * width;
+        if settled || step <= *width || hi.clone() - &lo <= *width {
             break;
         }
+        last_sq = if inside { step_sq } else { S::zero() };
     }
     x
 }
@@ -41,7 +48,7 @@ mod tests {
     #[test]
     fn finds_the_zero_of_a_cubic() {
         let f = |x: &f64| (0.3 - x * x * x, -3.0 * x * x);
-        let x = falling_zero(0.0, 1.0, &1e-14, f);
+        let x = falling_zero(0.0, 0.5, 1.0, &1e-14, f);
         assert!((x - 0.3_f64.cbrt()).abs() < 1e-14, "{x}");
     }
 }

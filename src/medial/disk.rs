@@ -52,7 +52,8 @@ struct Smallest<'f, S> {
     slack: S,
     centre: Point<S>,
     radius: S,
-    radius_sq: S,
+    /// `radius` squared and 32 roundoffs more, so that no box is left out because the centre is rounded.
+    reach_sq: S,
     touch: Option<Touch<S>>,
 }
 
@@ -85,8 +86,8 @@ pub struct Guard<S> {
     arcs: ArrayVec<Guarded<S>, GUARDED>,
     /// The arcs are complete.
     valid: bool,
-    /// The arc that bounded the last disk.
-    hint: Option<u32>,
+    /// What bounded the last disk.
+    hint: Option<Touch<S>>,
 }
 
 impl<S: Scalar> Guard<S> {
@@ -151,14 +152,15 @@ pub fn tangent_disk<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>) -> TangentD
 /// [`tangent_disk`] for one of a row of neighbouring feet: the same result, found faster.
 pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guard: &mut Guard<S>) -> TangentDisk<S> {
     let mut search = Search::new(foot);
-    if let Some(hint) = guard.hint {
-        search.visit(curve, hint);
+    let hint = guard.hint.as_ref().map(|h| h.arc);
+    if let Some(Touch { at, arc }) = &guard.hint {
+        search.visit(curve, *arc, Some(&at.t));
     }
     if guard.holds(&search.smallest) {
         for Guarded { arc, bounds, cubic } in &guard.arcs {
-            let near = guard.hint != Some(*arc) && search.smallest.meets(bounds, curve.noise);
+            let near = hint != Some(*arc) && search.smallest.meets(bounds, curve.noise);
             if near && !search.smallest.is_left_out_by(cubic, curve.noise) {
-                search.visit(curve, *arc);
+                search.visit(curve, *arc, None);
             }
         }
     } else {
@@ -166,7 +168,7 @@ pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guar
         guard.renew(curve, &search.smallest);
     }
     if let Some(touch) = &search.smallest.touch {
-        guard.hint = Some(touch.arc);
+        guard.hint = Some(touch.clone());
     }
     search.result(curve)
 }
@@ -207,7 +209,7 @@ impl<'f, S: Scalar> Search<'f, S> {
             slack: S::one().mul_pow2(-(S::BITS * 3 / 4).cast_signed()),
             centre: foot.point.clone(),
             radius: S::infinity(),
-            radius_sq: S::infinity(),
+            reach_sq: S::infinity(),
             touch: None,
         };
         Self { smallest, pencil: None }
@@ -222,7 +224,7 @@ impl<'f, S: Scalar> Search<'f, S> {
             |s, bounds| s.smallest.meets(bounds, curve.noise),
             |s, leaf, _| {
                 for (arc, _) in curve.arcs_in(leaf) {
-                    s.visit(curve, arc);
+                    s.visit(curve, arc, None);
                 }
             },
         );
@@ -239,8 +241,8 @@ impl<'f, S: Scalar> Search<'f, S> {
         TangentDisk { radius, touch }
     }
 
-    /// Shrinks the disk where the arc enters it.
-    fn visit(&mut self, curve: &Curve<'_, S>, index: u32) {
+    /// Shrinks the disk where the arc enters it, perhaps near the parameter `guess`.
+    fn visit(&mut self, curve: &Curve<'_, S>, index: u32, guess: Option<&S>) {
         let Some(arc) = curve.arcs.get(index as usize) else { return };
         let Some(segment) = curve.segment(arc.segment) else { return };
         let middle = S::midpoint(&arc.span[0], &arc.span[1]);
@@ -251,7 +253,7 @@ impl<'f, S: Scalar> Search<'f, S> {
             self.pencil = Some((arc.segment, part, pencil));
         }
         if let Some((_, _, pencil)) = &self.pencil {
-            self.smallest.search_arc(pencil, segment, arc, index);
+            self.smallest.search_arc(&Span { pencil, arc, index }, segment, guess);
         }
     }
 }
@@ -261,7 +263,7 @@ impl<S: Scalar> Smallest<'_, S> {
     #[inline]
     fn meets(&self, bounds: &Aabb<S>, noise: &S) -> bool {
         if self.touch.is_some() {
-            return bounds.distance_sq(&self.centre) < self.radius_sq;
+            return bounds.distance_sq(&self.centre) < self.reach_sq;
         }
         // Half-plane: the box's corner farthest in direction d.
         let d = &self.foot.direction;
@@ -291,28 +293,35 @@ impl<S: Scalar> Smallest<'_, S> {
             & (q1.dot(&q2) * &nine + &q0.dot(&q3) >= ten)
     }
 
-    fn search_arc(&mut self, pencil: &Pencil<S>, segment: &Segment<S>, arc: &Arc<S>, index: u32) {
-        let span = Span { pencil, arc, index };
+    fn search_arc(&mut self, span: &Span<'_, S>, segment: &Segment<S>, guess: Option<&S>) {
+        let Span { pencil, arc, .. } = span;
+        if pencil.turns_away(&arc.span) {
+            return;
+        }
         let moving = arc.moving(segment);
-        let ends = moving.clone().map(|t| Place::new(pencil, t - &pencil.shift));
-        for ((end, from), t) in ends.iter().zip(&moving).zip(&arc.span) {
-            self.offer(&end.values, &span, from);
-            // Seen from the retracted end itself the quotient has its largest values beside it, and none at the end.
+        let [start, end] = moving.each_ref().map(|t| Place::new(pencil, t.clone() - &pencil.shift));
+        self.offer(&start.values, span, &moving[0]);
+        self.offer(&end.values, span, &moving[1]);
+        // Seen from the retracted end itself the quotient has its largest values beside it, and none at the end.
+        for (from, t) in moving.iter().zip(&arc.span) {
             if from != t {
-                self.offer(&pencil.at(&(t.clone() - &pencil.shift)), &span, t);
+                self.offer(&pencil.at(&(t.clone() - &pencil.shift)), span, t);
             }
         }
-        let [start, end] = ends;
-        self.search(&span, start, end);
+        let length = end.v.clone() - &start.v;
+        if guess.is_some() || !self.excludes(&start, &end, &length) {
+            self.search(span, start, end, guess);
+        }
     }
 
     /// Offers maxima of A/B between two places until no piece between can hold a larger one.
     ///
     /// A piece that [`Self::excludes`] does not rule out is split: at the foot's nearest point on it, where that lies inside
     /// (near it the quotient changes on a scale that the ends do not show); at a maximum, where the slopes at its ends
-    /// promise one; else in its middle.
-    fn search(&mut self, span: &Span<'_, S>, start: Place<S>, end: Place<S>) {
+    /// promise one; else in its middle. The first maximum is sought from the parameter `guess` on.
+    fn search(&mut self, span: &Span<'_, S>, start: Place<S>, end: Place<S>, guess: Option<&S>) {
         let (pencil, zero) = (span.pencil, S::zero());
+        let mut guess = guess.map(|t| t.clone() - &pencil.shift);
         let width = S::unit_roundoff().mul_pow2(6);
         let least = self.slack.clone() * &(end.v.clone() - &start.v);
         let mut left = start;
@@ -321,7 +330,8 @@ impl<S: Scalar> Smallest<'_, S> {
         for _ in 0..PIECES {
             let Some(right) = rights.last() else { return };
             let length = right.v.clone() - &left.v;
-            if length <= least || rights.is_full() || self.excludes(&left, right, &length) {
+            // With a guess the whole is known to hold a maximum.
+            if length <= least || rights.is_full() || (guess.is_none() && self.excludes(&left, right, &length)) {
                 left = match rights.pop() {
                     Some(right) => right,
                     None => return,
@@ -331,12 +341,16 @@ impl<S: Scalar> Smallest<'_, S> {
             let (l, r) = (&left.values, &right.values);
             let near = r.delta.minus(&l.delta).norm_sq() >= l.b.clone().min(r.b.clone());
             let split = if near && l.approach < zero && r.approach > zero {
-                falling_zero(left.v.clone(), right.v.clone(), &width, |v| pencil.recession(v))
+                let middle = S::midpoint(&left.v, &right.v);
+                falling_zero(left.v.clone(), middle, right.v.clone(), &width, |v| pencil.recession(v))
             } else if l.slope > zero && r.slope < zero {
-                falling_zero(left.v.clone(), right.v.clone(), &width, |v| pencil.slope(v))
+                let middle = S::midpoint(&left.v, &right.v);
+                let start = guess.filter(|v| *v > left.v && *v < right.v).unwrap_or(middle);
+                falling_zero(left.v.clone(), start, right.v.clone(), &width, |v| pencil.slope(v))
             } else {
                 S::midpoint(&left.v, &right.v)
             };
+            guess = None;
             // What was found so close to an end that nothing is split off is seen with its neighbourhood.
             let margin = length.mul_pow2(-10);
             let place = Place::new(pencil, split);
@@ -411,7 +425,8 @@ impl<S: Scalar> Smallest<'_, S> {
             return;
         }
         self.centre = self.foot.point.plus_scaled(&radius, &self.foot.direction);
-        self.radius_sq = radius.clone().square();
+        let radius_sq = radius.clone().square();
+        self.reach_sq = radius_sq.clone() * &S::unit_roundoff().mul_pow2(5) + &radius_sq;
         self.bend = if touching { S::infinity() } else { e.a.clone() / &e.b };
         self.bend_loose = self.bend.clone() * &self.slack + &self.bend;
         self.radius = radius;

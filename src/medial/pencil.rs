@@ -203,6 +203,15 @@ impl<S: Scalar> Pencil<S> {
         Values { a, b, slope, delta: d, a_slope, delta_slope: d_slope, approach }
     }
 
+    /// No disk in direction d touches the segment between two parameters: seen from a foot on it, it bends to the other side.
+    /// `false` says nothing, and is the answer for any other segment.
+    #[inline]
+    pub(super) fn turns_away(&self, span: &[S; 2]) -> bool {
+        let [a0, a1, a2, a3] = &self.a;
+        let linear = self.touching.is_zero() && self.shift.is_zero() && a2.is_zero() && a3.is_zero();
+        linear && span.iter().all(|t| a1.clone() * t + a0 <= S::zero())
+    }
+
     /// A'B − AB' and its derivative A''B − AB''.
     #[inline]
     pub(super) fn slope(&self, v: &S) -> (S, S) {

@@ -8,6 +8,7 @@ mod certificate;
 mod common;
 mod contacts;
 mod core_only;
+mod disks;
 mod empty_disks;
 mod enclosures;
 mod interval;

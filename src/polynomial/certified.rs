@@ -236,7 +236,7 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
             };
             return Certified { value: S::midpoint(&lower, &upper), lower, upper, holds };
         };
-        let narrow = crossing(self, lower.clone(), upper.clone(), after > 0, start);
+        let narrow = crossing(self, (lower.clone(), upper.clone()), after > 0, start, &S::zero());
         let (mut below, mut above) = (narrow.value.clone() - &narrow.lower, narrow.upper.clone() - &narrow.value);
         let (mut from, mut to) = (narrow.lower, narrow.upper);
         for _ in 0..ATTEMPTS {

@@ -35,13 +35,16 @@ const ROUNDS: usize = 4;
 ///
 /// A step taken from a value in twice the precision is as wrong as the slope is, in proportion: an error of 2N²u·Σ|aⱼ||x|ʲ/|x|
 /// leaves that share of the step. Where this is below the resolution no further step is needed to see it.
+///
+/// The bracket may be `width`·|x| wide. Where it stays inside [lower, upper] and values in the scalar's own precision are good
+/// enough for it, by a factor of two, no others are asked for.
 #[inline]
 pub(super) fn crossing<S: Scalar, const N: usize>(
     p: &Polynomial<S, N>,
-    lower: S,
-    upper: S,
+    (lower, upper): (S, S),
     rising: bool,
     start: S,
+    width: &S,
 ) -> Root<S> {
     let half_way = S::one().mul_pow2(-(S::BITS / 2).cast_signed());
     let resolution = S::unit_roundoff().half();
@@ -77,8 +80,17 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             }
             previous = step;
         } else {
+            let wide = size.clone() * width;
+            let is_plain = is_converging && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
+            if is_plain && curving.clone().mul_pow2(3) <= wide {
+                let half = wide.half();
+                let (left, right) = (x.clone() - &half, x.clone() + &half);
+                if lower < left && right < upper {
+                    return Root { lower: left, upper: right, value: x, kind: RootKind::Simple };
+                }
+            }
             let least = size * &half_way;
-            is_precise = is_finest || (is_converging && curving <= least);
+            is_precise = is_finest || (is_converging && !is_plain && curving <= least);
             previous = if is_precise { step.max(least) } else { step };
         }
         is_converging = true;
@@ -103,6 +115,19 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
     }
 }
 
+/// What plain values leave of a step of Halley's that led to x is an eighth of this width at most: 2Nu·Σ|aⱼ||x|ʲ/|p'| from the
+/// value and, with a step below |x|/N, no more from the slope. Products that lose digits at the lower end of the scalar's
+/// range would leave more.
+#[inline]
+fn is_good_for<S: Scalar, const N: usize>(p: &Polynomial<S, N>, width: &S, x: &S, slope: &S, step: &S) -> bool {
+    let n = S::int(i32::try_from(N).unwrap_or(i32::MAX));
+    let size = x.clone().abs();
+    let product = slope.clone().square() * &size;
+    let is_in_range = !product.mul_pow2(-(2 * S::BITS).cast_signed()).is_zero();
+    let noise = p.magnitude(x) * &(n.clone() * &S::unit_roundoff()).mul_pow2(5);
+    is_in_range && n * step <= size && noise <= slope.clone().abs() * width
+}
+
 /// 2N²u: times the magnitude, divided by |x|, what p'(x) may be off by.
 #[inline]
 fn wobble<S: Scalar, const N: usize>() -> S {
@@ -122,17 +147,21 @@ pub(super) fn spread<S: Scalar, const N: usize>(x: &S, slope: &S, magnitude: &S)
     (rest + &(x.clone().abs() * &S::ratio(7, 5))) * &S::unit_roundoff()
 }
 
-/// Appends the roots of p on a piece. Where coefficients are known better than [`Given::Rounded`] this is the closer look at a
+/// Appends the roots of p on a piece, simple ones in brackets of `width`·|x| if they may be so wide. Where coefficients are known better than [`Given::Rounded`] this is the closer look at a
 /// cluster, which takes no other.
 #[inline]
 pub(super) fn search<S: Scalar, const N: usize>(
     p: &Polynomial<S, N>,
     piece: Piece<S, N>,
     given: Given,
+    width: &S,
     roots: &mut Roots<S, N>,
 ) {
     isolate(p, piece, given, |isolated| match isolated.found {
-        Found::One(start) => push(roots, crossing(p, isolated.lower, isolated.upper, isolated.after > 0, start)),
+        Found::One(start) => {
+            let ends = (isolated.lower, isolated.upper);
+            push(roots, crossing(p, ends, isolated.after > 0, start, width));
+        }
         Found::Cluster(count) if given == Given::Rounded => cluster(p, &isolated, count, roots),
         Found::Cluster(count) => push(roots, group(p, &isolated, count)),
     });
@@ -176,7 +205,7 @@ fn cluster<S: Scalar, const N: usize>(
 /// What is in a bracket for coefficients known better.
 fn closer<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lower: &S, upper: &S, given: Given) -> Roots<S, N> {
     let mut found = Roots::new();
-    search(p, Piece::seated(p, lower.clone(), upper.clone(), given), given, &mut found);
+    search(p, Piece::seated(p, lower.clone(), upper.clone(), given), given, &S::zero(), &mut found);
     found
 }
 
@@ -227,7 +256,7 @@ fn group<S: Scalar, const N: usize>(p: &Polynomial<S, N>, isolated: &Isolated<S>
     let k = k.clamp(1, degree);
     let x = mean(p, lower, upper, x, k);
     if k == 1 && parity_known {
-        return crossing(p, lower.clone(), upper.clone(), *after > 0, x);
+        return crossing(p, (lower.clone(), upper.clone()), *after > 0, x, &S::zero());
     }
     let kind = match k {
         1 => RootKind::Simple,

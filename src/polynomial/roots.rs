@@ -96,18 +96,31 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
     #[inline]
     pub fn roots_in_unit(&self) -> Result<Roots<S, N>, RootsError> {
+        self.roots_in_unit_within(&S::zero())
+    }
+
+    /// [`Self::roots_in_unit`] for those who need no more than brackets of a given width relative to the root.
+    ///
+    /// A simple root x has a bracket of `width`·|x| around its value, where that stays clear of other roots and of the ends
+    /// and plain evaluations are good enough for it; otherwise, and with a width of 0, the narrowest. Everything else is
+    /// the same. With 1e-12 in `f64` this takes about a tenth less time (`cargo bench --bench race`).
+    ///
+    /// # Errors
+    /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
+    #[inline]
+    pub fn roots_in_unit_within(&self, width: &S) -> Result<Roots<S, N>, RootsError> {
         let weight = self.weight();
         if Self::is_comfortable(&weight) && !self.coefficients[0].is_zero() {
             let mut roots = Roots::new();
             let piece = Piece::unit(self, &weight);
             let at_end = piece.may_vanish_at_end(&weight);
-            search(self, piece, Given::Rounded, &mut roots);
+            search(self, piece, Given::Rounded, width, &mut roots);
             if at_end {
                 ends::check(self, &S::one(), false, &mut roots);
             }
             return Ok(roots);
         }
-        self.roots_between(&S::zero(), &S::one())
+        self.roots_between_within(&S::zero(), &S::one(), width)
     }
 
     /// The roots in [lo, hi], ascending.
@@ -117,13 +130,22 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     ///
     /// # Errors
     /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`], [`RootsError::BadInterval`].
-    #[cold]
+    #[inline]
     pub fn roots_between(&self, lo: &S, hi: &S) -> Result<Roots<S, N>, RootsError> {
+        self.roots_between_within(lo, hi, &S::zero())
+    }
+
+    /// [`Self::roots_between`] with brackets of a relative width: see [`Self::roots_in_unit_within`].
+    ///
+    /// # Errors
+    /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`], [`RootsError::BadInterval`].
+    #[cold]
+    pub fn roots_between_within(&self, lo: &S, hi: &S, width: &S) -> Result<Roots<S, N>, RootsError> {
         if !(lo.is_finite() && hi.is_finite() && lo < hi) {
             return Err(RootsError::BadInterval);
         }
         let p = self.prepared()?;
-        let mut roots = p.search_line(lo, hi)?;
+        let mut roots = p.search_line(lo, hi, width);
         let (p, _) = p.without_zeros();
         ends::check(&p, lo, true, &mut roots);
         ends::check(&p, hi, false, &mut roots);
@@ -135,12 +157,21 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     ///
     /// # Errors
     /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
+    #[inline]
     pub fn real_roots(&self) -> Result<Roots<S, N>, RootsError> {
+        self.real_roots_within(&S::zero())
+    }
+
+    /// [`Self::real_roots`] with brackets of a relative width: see [`Self::roots_in_unit_within`].
+    ///
+    /// # Errors
+    /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
+    pub fn real_roots_within(&self, width: &S) -> Result<Roots<S, N>, RootsError> {
         let p = self.prepared()?;
-        match p.root_bound() {
-            Some(_) => p.search_line(&-S::infinity(), &S::infinity()),
-            None => Ok(Roots::new()),
-        }
+        Ok(match p.root_bound() {
+            Some(_) => p.search_line(&-S::infinity(), &S::infinity(), width),
+            None => Roots::new(),
+        })
     }
 
     /// Checked and scaled.
@@ -162,14 +193,14 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     }
 
     /// Roots in [lo, hi], ends may be infinite; coefficients of comfortable size.
-    fn search_line(&self, lo: &S, hi: &S) -> Result<Roots<S, N>, RootsError> {
+    fn search_line(&self, lo: &S, hi: &S, width: &S) -> Roots<S, N> {
         let zero = S::zero();
         let (p, zeros) = self.without_zeros();
         let mut roots = Roots::new();
         if *lo < zero {
             let mut negative = Roots::new();
             let end = if *hi < zero { -hi.clone() } else { zero.clone() };
-            search_positive(&p.mirrored(), end, -lo.clone(), &mut negative);
+            search_positive(&p.mirrored(), (end, -lo.clone()), width, &mut negative);
             for r in negative.into_iter().rev() {
                 push(&mut roots, Root { value: -r.value, lower: -r.upper, upper: -r.lower, kind: r.kind });
             }
@@ -184,29 +215,39 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
             push(&mut roots, Root { value: zero.clone(), lower: zero.clone(), upper: zero.clone(), kind });
         }
         if *hi > zero {
-            search_positive(&p, lo.clone().max(zero), hi.clone(), &mut roots);
+            search_positive(&p, (lo.clone().max(zero), hi.clone()), width, &mut roots);
         }
-        Ok(roots)
+        roots
     }
 }
 
 /// Appends the roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.
-fn search_positive<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, roots: &mut Roots<S, N>) {
+fn search_positive<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    (lo, hi): (S, S),
+    width: &S,
+    roots: &mut Roots<S, N>,
+) {
     if hi <= border() {
-        search(p, Piece::seated(p, lo, hi, Given::Rounded), Given::Rounded, roots);
+        search(p, Piece::seated(p, lo, hi, Given::Rounded), Given::Rounded, width, roots);
     } else {
-        search_beyond(p, lo, hi, roots);
+        search_beyond(p, (lo, hi), width, roots);
     }
 }
 
 /// The same where reciprocals are needed. A call of its own, so that its lists do not lie on the stack where they are not.
 #[inline(never)]
-fn search_beyond<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, roots: &mut Roots<S, N>) {
+fn search_beyond<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    (lo, hi): (S, S),
+    width: &S,
+    roots: &mut Roots<S, N>,
+) {
     let border = border::<S>();
     let one = S::one();
     let mut near = Roots::new();
     if lo < border {
-        search(p, Piece::seated(p, lo.clone(), border.clone(), Given::Rounded), Given::Rounded, &mut near);
+        search(p, Piece::seated(p, lo.clone(), border.clone(), Given::Rounded), Given::Rounded, width, &mut near);
     }
     let (reversed, _) = p.reversed().without_zeros();
     // rounded outwards: what this adds is cut off again
@@ -215,7 +256,8 @@ fn search_beyond<S: Scalar, const N: usize>(p: &Polynomial<S, N>, lo: S, hi: S, 
     let farthest = if hi.is_finite() { (one.clone() - &nudge) / &hi } else { S::zero() };
     let mut far = Roots::new();
     if farthest < nearest {
-        search(&reversed, Piece::seated(&reversed, farthest, nearest, Given::Rounded), Given::Rounded, &mut far);
+        let piece = Piece::seated(&reversed, farthest, nearest, Given::Rounded);
+        search(&reversed, piece, Given::Rounded, width, &mut far);
     }
     let reciprocal = |t: &S| (one.clone() / t).clamp(lo.clone(), hi.clone());
     let mut far = far.into_iter().rev().filter(|r| !r.value.is_zero()).map(|r| Root {

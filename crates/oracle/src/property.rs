@@ -7,7 +7,7 @@ use crate::closest::{Closest, brute};
 use crate::decode::{self, Bytes};
 use crate::judge::{Fault, Interval, Judge};
 use crate::proof::refuted;
-use crate::solve::{Ask, prove, solve};
+use crate::solve::{Ask, prove, solve, solve_within};
 use feature_sampling::bezier::Cubic;
 use feature_sampling::bezier::nearest::{distance_quintic, nearest, nearest_between};
 use feature_sampling::geometry::{Aabb, Point};
@@ -66,6 +66,27 @@ fn is_within_range(coefficients: &[f64]) -> bool {
     largest.log2() - least.log2() < 900.0
 }
 
+/// In wider brackets the same roots are found: kinds are the same, and a bracket, if it is not the narrowest, has the width that was
+/// asked for and holds the root.
+fn coarse(coefficients: &[f64], ask: Ask, fine: &[Root<f64>]) {
+    for width in [1e-12, 1e-7, 1e-3] {
+        let found =
+            solve_within(coefficients, ask, width).unwrap_or_else(|e| panic!("{ask:?} of {coefficients:?}: {e}"));
+        let say = || format!("{ask:?} of {coefficients:?} within {width}: {found:?} for {fine:?}");
+        assert_eq!(found.len(), fine.len(), "{}", say());
+        for (wide, narrow) in found.iter().zip(fine) {
+            let is_in_order = wide.lower <= wide.value && wide.value <= wide.upper;
+            let is_same = wide.kind == narrow.kind && wide.lower <= narrow.upper && narrow.lower <= wide.upper;
+            // Ends are rounded, and those beyond 1 are reciprocals.
+            let half = (0.5 * width + width * width + 8.0 * f64::EPSILON) * wide.value.abs();
+            let is_narrow = (wide.upper - wide.lower) <= (2.0 * half).max(narrow.upper - narrow.lower);
+            let is_near = (wide.value - narrow.value).abs() <= half.max(narrow.upper - narrow.lower);
+            assert!(is_in_order && is_same && is_narrow && is_near, "{}", say());
+        }
+        assert!(found.windows(2).all(|w| w[0].upper <= w[1].lower), "{}", say());
+    }
+}
+
 /// The answer, which has no fault.
 fn faultless(coefficients: &[f64], ask: Ask) -> Vec<Root<f64>> {
     let found = solve(coefficients, ask).unwrap_or_else(|e| panic!("{ask:?} of {coefficients:?}: {e}"));
@@ -77,6 +98,7 @@ fn faultless(coefficients: &[f64], ask: Ask) -> Vec<Root<f64>> {
     };
     let within = within.unwrap_or_else(|| panic!("{ask:?} is finite"));
     let faults = judge.faults(&found, &within);
+    coarse(coefficients, ask, &found);
     if !faults.is_empty() {
         let words: Vec<String> = faults.iter().map(Fault::to_string).collect();
         let truth = judge.roots(&within);

@@ -5,11 +5,11 @@ use feature_sampling::polynomial::{Certified, Polynomial, Root, RootsError};
 /// Which of the kernel's interfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ask {
-    /// [`Polynomial::roots_in_unit`].
+    /// [`Polynomial::roots_in_unit_within`].
     Unit,
-    /// [`Polynomial::roots_between`].
+    /// [`Polynomial::roots_between_within`].
     Between(f64, f64),
-    /// [`Polynomial::real_roots`].
+    /// [`Polynomial::real_roots_within`].
     Real,
 }
 
@@ -44,7 +44,18 @@ macro_rules! by_size {
 /// # Panics
 /// If there are more than [`MOST`] coefficients.
 pub fn solve(coefficients: &[f64], ask: Ask) -> Result<Vec<Root<f64>>, RootsError> {
-    by_size!(coefficients, solve_as(coefficients, ask))
+    solve_within(coefficients, ask, 0.0)
+}
+
+/// The kernel's answer in brackets of a relative width.
+///
+/// # Errors
+/// The kernel's own.
+///
+/// # Panics
+/// If there are more than [`MOST`] coefficients.
+pub fn solve_within(coefficients: &[f64], ask: Ask, width: f64) -> Result<Vec<Root<f64>>, RootsError> {
+    by_size!(coefficients, solve_as(coefficients, ask, width))
 }
 
 /// The kernel's certified answer.
@@ -72,12 +83,12 @@ fn polynomial<const N: usize>(coefficients: &[f64]) -> Polynomial<f64, N> {
     Polynomial::new(std::array::from_fn(|j| coefficients.get(j).copied().unwrap_or(0.0)))
 }
 
-fn solve_as<const N: usize>(coefficients: &[f64], ask: Ask) -> Result<Vec<Root<f64>>, RootsError> {
+fn solve_as<const N: usize>(coefficients: &[f64], ask: Ask, width: f64) -> Result<Vec<Root<f64>>, RootsError> {
     let p = polynomial::<N>(coefficients);
     let found = match ask {
-        Ask::Unit => p.roots_in_unit(),
-        Ask::Between(lo, hi) => p.roots_between(&lo, &hi),
-        Ask::Real => p.real_roots(),
+        Ask::Unit => p.roots_in_unit_within(&width),
+        Ask::Between(lo, hi) => p.roots_between_within(&lo, &hi, &width),
+        Ask::Real => p.real_roots_within(&width),
     };
     found.map(|roots| roots.into_iter().collect())
 }

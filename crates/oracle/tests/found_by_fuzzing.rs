@@ -118,3 +118,10 @@ fn a_query_so_far_away_that_all_points_are_level() {
     );
     check_closest(&cubic, &Point::new(-921400391520.5728, -0.4819350648426135), 0.0, 1.0);
 }
+
+/// The square of the slope at the reciprocal underflows: plain steps towards a bracket of 1e-12 lost four digits.
+#[test]
+fn a_root_of_1e105_in_a_wide_bracket() {
+    let c = [-1.438043545891893e-58, -3.556851672255464e98, -2.273788596691974e-143, 2.418429580981082e-112];
+    check_roots(&c, -1.0, 1.0);
+}

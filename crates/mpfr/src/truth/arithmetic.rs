@@ -2,7 +2,7 @@
 
 use feature_sampling::bezier::{critical, hull, nearest};
 use feature_sampling::geometry::{Aabb, Point, Vector, distance_sq_to_segment, project_to_segment};
-use feature_sampling::polynomial::{Polynomial, RootKind};
+use feature_sampling::polynomial::{Polynomial, Root, RootKind};
 use feature_sampling::scalar::{Field, Scalar};
 use num_traits::{One, Zero};
 
@@ -315,6 +315,39 @@ pub fn roots_between<S: Scalar>(g: &mut Gen) -> f64 {
     let (p, truth) = polynomial::<S>(g);
     let roots = p.roots_between(&S::int(-2), &S::int(3)).unwrap_or_default();
     roots.iter().filter(|r| r.kind == RootKind::Simple).map(|r| residual(&truth, &r.value)).fold(0.0, f64::max)
+}
+
+/// 0 if p changes its sign in every bracket a thousandth wide and none is wider.
+fn change_of_sign<S: Scalar, const N: usize>(truth: &Polynomial<Truth, N>, roots: &[Root<S>]) -> f64 {
+    let width = S::one().mul_pow2(-10);
+    let holds = |r: &&Root<S>| {
+        let signs = [&r.lower, &r.upper].map(|x| truth.eval(&lift(x)) > Truth::zero());
+        let most = (width.clone() + &S::unit_roundoff().mul_pow2(3)) * &r.value.clone().abs();
+        signs[0] != signs[1] && r.upper.clone() - &r.lower <= most
+    };
+    let simple = roots.iter().filter(|r| r.kind == RootKind::Simple && r.lower < r.upper);
+    if simple.clone().all(|r| holds(&r)) { 0.0 } else { f64::INFINITY }
+}
+
+/// Roots in [0, 1], in brackets a thousandth wide.
+pub fn roots_in_unit_within<S: Scalar>(g: &mut Gen) -> f64 {
+    let (p, truth) = polynomial::<S>(g);
+    change_of_sign(&truth, &p.roots_in_unit_within(&S::one().mul_pow2(-10)).unwrap_or_default())
+}
+
+/// All real roots, in brackets a thousandth wide.
+pub fn real_roots_within<S: Scalar>(g: &mut Gen) -> f64 {
+    let (p, truth) = polynomial::<S>(g);
+    change_of_sign(&truth, &p.real_roots_within(&S::one().mul_pow2(-10)).unwrap_or_default())
+}
+
+/// Roots in [−2, 3], in brackets a thousandth wide.
+pub fn roots_between_within<S: Scalar>(g: &mut Gen) -> f64 {
+    let (p, truth) = polynomial::<S>(g);
+    change_of_sign(
+        &truth,
+        &p.roots_between_within(&S::int(-2), &S::int(3), &S::one().mul_pow2(-10)).unwrap_or_default(),
+    )
 }
 
 /// B(t) by de Casteljau.

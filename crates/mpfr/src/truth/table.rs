@@ -369,6 +369,13 @@ pub const TABLE: &[Entry] = &[
         SOME
     ),
     measured!(
+        "polynomial::roots::Polynomial::real_roots_within",
+        a::real_roots_within,
+        "none: p changes its sign in each bracket",
+        [0.0, 0.0],
+        SOME
+    ),
+    measured!(
         "polynomial::roots::Polynomial::roots_between",
         a::roots_between,
         "Σ|aⱼxʲ|, for p at simple roots",
@@ -376,10 +383,24 @@ pub const TABLE: &[Entry] = &[
         SOME
     ),
     measured!(
+        "polynomial::roots::Polynomial::roots_between_within",
+        a::roots_between_within,
+        "none: p changes its sign in each bracket",
+        [0.0, 0.0],
+        SOME
+    ),
+    measured!(
         "polynomial::roots::Polynomial::roots_in_unit",
         a::roots_in_unit,
         "Σ|aⱼxʲ|, for p at simple roots",
         [2.0, 2.0],
+        SOME
+    ),
+    measured!(
+        "polynomial::roots::Polynomial::roots_in_unit_within",
+        a::roots_in_unit_within,
+        "none: p changes its sign in each bracket",
+        [0.0, 0.0],
         SOME
     ),
     exact("polynomial::roots::RootKind::multiplicity", "integers"),

@@ -124,7 +124,7 @@ impl<'a, S: Scalar, F: FeatureSize<S>> Resumable<'a, S, F> {
             });
         };
         let stretches = Stretches::default();
-        let sizes = Sizes::new(&run, self.features, &[], self.options, &S::one(), &stretches);
+        let sizes: Sizes<'_, S, F, true> = Sizes::new(&run, self.features, &[], self.options, &S::one(), &stretches);
         sizes.resume(self.looked.take());
         let caps =
             Caps { chord: self.options.chord_error.clone(), max: self.options.max_distance.clone(), graded: None };

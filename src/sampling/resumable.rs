@@ -101,6 +101,7 @@ impl<'a, S: Scalar, F: FeatureSize<S>> Resumable<'a, S, F> {
     ///
     /// # Errors
     /// [`SamplingError::Limit`] where a run needs more samples than [`SamplingOptions::limit`]; the sampler is then done.
+    #[inline(never)]
     pub fn step(&mut self, budget: u32) -> Result<Step<S>, SamplingError> {
         let Some(run) = self.run.clone() else {
             return Ok(match self.legs.next() {

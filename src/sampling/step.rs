@@ -115,6 +115,7 @@ impl<S: Scalar> Search<S> {
     }
 
     /// One turn; the answer, once there is one. Run, sizes, options and caps must be the same at every turn.
+    #[inline(never)]
     pub fn turn<F: FeatureSize<S>, const BOUNDED: bool>(
         &mut self,
         run: &Run<'_, S>,
@@ -265,6 +266,7 @@ impl<S: Scalar> Covered<S> {
     }
 
     /// At most one look at a size.
+    #[inline(never)]
     fn turn<F: FeatureSize<S>, const BOUNDED: bool>(
         &mut self,
         run: &Run<'_, S>,
@@ -490,6 +492,7 @@ impl<S: Scalar> ChordSearch<S> {
     }
 
     /// The chord error of at most one piece of a cubic.
+    #[inline(never)]
     fn turn(&mut self, run: &Run<'_, S>) -> Option<Pos<S>> {
         if self.k <= self.to.k
             && let Some(segment) = run.segment(self.k)

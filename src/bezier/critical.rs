@@ -36,6 +36,7 @@ pub fn inflections<S: Scalar>(b: &PowerBasis<S>) -> ArrayVec<S, 2> {
 /// Parameters in [0, 1] where the curvature is stationary (vertices of the curve), ascending.
 ///
 /// Straight cubics have none. A cusp, where curvature is unbounded, is among the roots.
+#[inline(never)]
 pub fn vertices<S: Scalar>(b: &PowerBasis<S>) -> ArrayVec<S, 5> {
     let Some(size) = Size::of(b) else { return ArrayVec::new() };
     let [a1, a2, a3] = &size.a;

@@ -52,6 +52,7 @@ pub const fn nodes_for(items: usize) -> usize {
 ///
 /// # Errors
 /// [`BufferFull`] if `nodes` cannot hold [`nodes_for`] nodes.
+#[inline(never)]
 pub fn build<S: Scalar>(items: &mut [Item<S>], nodes: &mut impl Store<Node<S>>) -> Result<(), BufferFull> {
     nodes.shorten(0);
     // Ranges of items still to be placed, with the node whose right child they are.

@@ -160,6 +160,7 @@ impl<'c, S: Scalar> UniformWalk<'c, S> {
         CurveParam { segment: self.segment(), t }
     }
 
+    #[inline(never)]
     fn turn(&mut self, out: &mut impl Sink<MedialPoint<S>>) -> Result<(), BufferFull> {
         self.stage = match core::mem::replace(&mut self.stage, Stage::Joint) {
             Stage::Side => self.start(out)?,

@@ -22,7 +22,20 @@ pub(super) fn check<S: Scalar, const N: usize>(p: &Polynomial<S, N>, at: &S, is_
         if let Some(kind) = kind(&p.reversed(), &place, is_inwards_up, roots.iter().map(|r| S::one() / &r.value)) {
             insert(at, is_lower, kind, roots);
         }
-    } else if let Some(kind) = kind(p, at, is_lower, roots.iter().map(|r| r.value.clone())) {
+    } else {
+        check_inside(p, at, is_lower, roots);
+    }
+}
+
+/// The same for an end in [−1, 1].
+#[cold]
+pub(super) fn check_inside<S: Scalar, const N: usize>(
+    p: &Polynomial<S, N>,
+    at: &S,
+    is_lower: bool,
+    roots: &mut Roots<S, N>,
+) {
+    if let Some(kind) = kind(p, at, is_lower, roots.iter().map(|r| r.value.clone())) {
         insert(at, is_lower, kind, roots);
     }
 }

@@ -116,11 +116,30 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
             let at_end = piece.may_vanish_at_end(&weight);
             search(self, piece, Given::Rounded, width, &mut roots);
             if at_end {
-                ends::check(self, &S::one(), false, &mut roots);
+                ends::check_inside(self, &S::one(), false, &mut roots);
             }
             return Ok(roots);
         }
-        self.roots_between_within(&S::zero(), &S::one(), width)
+        self.roots_inside(&S::zero(), &S::one(), width)
+    }
+
+    /// [`Polynomial::roots_between_within`] for 0 ≤ lo < hi ≤ 1, without what negative numbers and reciprocals take: a program that
+    /// asks for no other roots is a good deal smaller.
+    #[cold]
+    pub(crate) fn roots_inside(&self, lo: &S, hi: &S, width: &S) -> Result<Roots<S, N>, RootsError> {
+        if !(S::zero() <= *lo && lo < hi && *hi <= S::one()) {
+            return Err(RootsError::BadInterval);
+        }
+        let (p, zeros) = self.prepared()?.without_zeros();
+        let mut roots = Roots::new();
+        if lo.is_zero() {
+            push_zero(zeros, &mut roots);
+        }
+        let piece = Piece::seated(&p, lo.clone(), hi.clone(), Given::Rounded);
+        search(&p, piece, Given::Rounded, width, &mut roots);
+        ends::check_inside(&p, lo, true, &mut roots);
+        ends::check_inside(&p, hi, false, &mut roots);
+        Ok(roots)
     }
 
     /// The roots in [lo, hi], ascending.
@@ -205,20 +224,26 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
                 push(&mut roots, Root { value: -r.value, lower: -r.upper, upper: -r.lower, kind: r.kind });
             }
         }
-        if zeros > 0 && *lo <= zero && zero <= *hi {
-            let kind = match zeros {
-                1 => RootKind::Simple,
-                2 => RootKind::Even,
-                3 => RootKind::Odd,
-                k => RootKind::Cluster(u8::try_from(k).unwrap_or(u8::MAX)),
-            };
-            push(&mut roots, Root { value: zero.clone(), lower: zero.clone(), upper: zero.clone(), kind });
+        if *lo <= zero && zero <= *hi {
+            push_zero(zeros, &mut roots);
         }
         if *hi > zero {
             search_positive(&p, (lo.clone().max(zero), hi.clone()), width, &mut roots);
         }
         roots
     }
+}
+
+/// Appends the root 0 of a polynomial that x divides so many times.
+fn push_zero<S: Scalar, const N: usize>(times: usize, roots: &mut Roots<S, N>) {
+    let kind = match times {
+        0 => return,
+        1 => RootKind::Simple,
+        2 => RootKind::Even,
+        3 => RootKind::Odd,
+        k => RootKind::Cluster(u8::try_from(k).unwrap_or(u8::MAX)),
+    };
+    push(roots, Root { value: S::zero(), lower: S::zero(), upper: S::zero(), kind });
 }
 
 /// Appends the roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.

@@ -95,5 +95,5 @@ fn farthest<S: Scalar>(power: &PowerBasis<S>, p: &Point<S>, t0: &S, t1: &S) -> i
         a2.dot(a3) * &S::int(5),
         a3.norm_sq() * &three,
     ]);
-    polynomial.roots_between(t0, t1).into_iter().flatten().map(|r| r.value)
+    polynomial.roots_inside(t0, t1, &S::zero()).into_iter().flatten().map(|r| r.value)
 }

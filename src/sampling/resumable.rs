@@ -101,6 +101,7 @@ impl<'a, S: Scalar, F: FeatureSize<S>> Resumable<'a, S, F> {
     ///
     /// # Errors
     /// [`SamplingError::Limit`] where a run needs more samples than [`SamplingOptions::limit`]; the sampler is then done.
+    #[inline(never)]
     pub fn step(&mut self, budget: u32) -> Result<Step<S>, SamplingError> {
         let Some(run) = self.run.clone() else {
             return Ok(match self.legs.next() {
@@ -124,7 +125,7 @@ impl<'a, S: Scalar, F: FeatureSize<S>> Resumable<'a, S, F> {
             });
         };
         let stretches = Stretches::default();
-        let sizes = Sizes::new(&run, self.features, &[], self.options, &S::one(), &stretches);
+        let sizes: Sizes<'_, S, F, true> = Sizes::new(&run, self.features, &[], self.options, &S::one(), &stretches);
         sizes.resume(self.looked.take());
         let caps =
             Caps { chord: self.options.chord_error.clone(), max: self.options.max_distance.clone(), graded: None };

@@ -16,7 +16,11 @@ use arrayvec::ArrayVec;
 
 /// The farthest position y such that the stretch from s to y fulfils the condition (inner end of a bracket), and whether a
 /// floor took part.
-pub fn next<S: Scalar, F: FeatureSize<S>>(run: &Run<'_, S>, sizes: &Sizes<'_, S, F>, s: &Pos<S>) -> (Pos<S>, bool) {
+pub fn next<S: Scalar, F: FeatureSize<S>, const BOUNDED: bool>(
+    run: &Run<'_, S>,
+    sizes: &Sizes<'_, S, F, BOUNDED>,
+    s: &Pos<S>,
+) -> (Pos<S>, bool) {
     let here = run.point(s);
     let first = sizes.at(s, &here);
     if !first.reach.is_finite() {
@@ -57,9 +61,9 @@ pub fn next<S: Scalar, F: FeatureSize<S>>(run: &Run<'_, S>, sizes: &Sizes<'_, S,
 }
 
 /// A lower bound, good to `precision`, of the size on [a, b], and whether a floor took part.
-fn least_size<S: Scalar, F: FeatureSize<S>>(
+fn least_size<S: Scalar, F: FeatureSize<S>, const BOUNDED: bool>(
     run: &Run<'_, S>,
-    sizes: &Sizes<'_, S, F>,
+    sizes: &Sizes<'_, S, F, BOUNDED>,
     a: &Pos<S>,
     b: &Pos<S>,
     precision: &S,

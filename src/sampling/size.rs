@@ -63,7 +63,10 @@ impl<S: Scalar> Stretches<S> {
 }
 
 /// Sizes along one run.
-pub struct Sizes<'r, S, F> {
+///
+/// `BOUNDED` are those of [`super::resumable`], which refuses what takes no bounded number of turns: there is a d_min, and the
+/// condition is not ρ. What only the others need is then not linked.
+pub struct Sizes<'r, S, F, const BOUNDED: bool = false> {
     run: &'r Run<'r, S>,
     features: &'r F,
     contacts: &'r [Contact<S>],
@@ -77,7 +80,7 @@ pub struct Sizes<'r, S, F> {
     last: Cell<Option<(Point<S>, S)>>,
 }
 
-impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
+impl<'r, S: Scalar, F: FeatureSize<S>, const BOUNDED: bool> Sizes<'r, S, F, BOUNDED> {
     /// Sizes along a run; `scale` in (0, 1] multiplies ε.
     pub fn new(
         run: &'r Run<'r, S>,
@@ -137,6 +140,9 @@ impl<'r, S: Scalar, F: FeatureSize<S>> Sizes<'r, S, F> {
         if let Some(min) = &self.options.min_distance {
             let floored = reach < *min;
             return Size { reach: reach.max(min.clone()), floored };
+        }
+        if BOUNDED {
+            return Size { reach, floored: false };
         }
         let diagonal = self.run.curve.diagonal;
         let singular = self.options.singular_floor.clone() * diagonal;

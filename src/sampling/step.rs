@@ -115,10 +115,11 @@ impl<S: Scalar> Search<S> {
     }
 
     /// One turn; the answer, once there is one. Run, sizes, options and caps must be the same at every turn.
-    pub fn turn<F: FeatureSize<S>>(
+    #[inline(never)]
+    pub fn turn<F: FeatureSize<S>, const BOUNDED: bool>(
         &mut self,
         run: &Run<'_, S>,
-        sizes: &Sizes<'_, S, F>,
+        sizes: &Sizes<'_, S, F, BOUNDED>,
         options: &SamplingOptions<S>,
         caps: &Caps<S>,
     ) -> Option<Next<S>> {
@@ -127,7 +128,7 @@ impl<S: Scalar> Search<S> {
             Stage::Fresh => {
                 self.stage = match sizes.factor() {
                     None => Stage::Max(None),
-                    Some(_) if matches!(options.condition, Condition::Rho(_)) => {
+                    Some(_) if !BOUNDED && matches!(options.condition, Condition::Rho(_)) => {
                         let (pos, floored) = rho::next(run, sizes, s);
                         self.next = Next { pos, bound: if floored { Bound::Floor } else { Bound::Epsilon } };
                         Stage::Max(None)
@@ -179,7 +180,8 @@ impl<S: Scalar> Search<S> {
                 self.stage = Stage::Graded(None);
             }
             Stage::Graded(leaves) => {
-                let y = capped(leaves, run, s, &self.here, caps.graded.as_ref(), &self.next.pos)?;
+                let graded = if BOUNDED { None } else { caps.graded.as_ref() };
+                let y = capped(leaves, run, s, &self.here, graded, &self.next.pos)?;
                 if y < self.next.pos {
                     self.next = Next { pos: y, bound: Bound::Grading };
                 }
@@ -264,10 +266,11 @@ impl<S: Scalar> Covered<S> {
     }
 
     /// At most one look at a size.
-    fn turn<F: FeatureSize<S>>(
+    #[inline(never)]
+    fn turn<F: FeatureSize<S>, const BOUNDED: bool>(
         &mut self,
         run: &Run<'_, S>,
-        sizes: &Sizes<'_, S, F>,
+        sizes: &Sizes<'_, S, F, BOUNDED>,
         factor: &S,
         here: &Point<S>,
     ) -> Option<Option<Reach<S>>> {
@@ -416,7 +419,12 @@ impl<S: Scalar> Checked<S> {
     }
 
     /// At most one look at a size.
-    fn turn<F: FeatureSize<S>>(&mut self, run: &Run<'_, S>, sizes: &Sizes<'_, S, F>, factor: &S) -> Option<Pos<S>> {
+    fn turn<F: FeatureSize<S>, const BOUNDED: bool>(
+        &mut self,
+        run: &Run<'_, S>,
+        sizes: &Sizes<'_, S, F, BOUNDED>,
+        factor: &S,
+    ) -> Option<Pos<S>> {
         if let Some(leaves) = &mut self.back {
             let back = leaves.turn(run)?;
             self.back = None;
@@ -484,6 +492,7 @@ impl<S: Scalar> ChordSearch<S> {
     }
 
     /// The chord error of at most one piece of a cubic.
+    #[inline(never)]
     fn turn(&mut self, run: &Run<'_, S>) -> Option<Pos<S>> {
         if self.k <= self.to.k
             && let Some(segment) = run.segment(self.k)

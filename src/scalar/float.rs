@@ -64,8 +64,9 @@ macro_rules! machine_float {
                 f64::from(*self)
             }
 
-            // Of its own for `f32`, so that a chip without double precision links none.
-            #[inline]
+            // Of its own for `f32`, so that a chip without double precision links none. Once: where integers have 32 bits it is
+            // long.
+            #[inline(never)]
             #[allow(clippy::cast_possible_truncation, reason = "a saturating cast is meant")]
             fn to_i64(&self) -> i64 {
                 *self as i64

@@ -208,6 +208,7 @@ pub struct Entered<S> {
 ///
 /// # Errors
 /// See [`CurveError`]. The buffers' contents are then of no use.
+#[inline(never)]
 pub fn enter<'a, S, Sg, So, Pa, Ar, No, It, Or>(
     paths: impl Iterator<Item = PathInput<'a, S>> + Clone,
     options: &DoorOptions<S>,

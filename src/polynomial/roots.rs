@@ -340,3 +340,29 @@ pub(super) fn push<S: Scalar, const N: usize>(roots: &mut Roots<S, N>, root: Roo
         last.upper = full.element().upper;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inside_the_unit_interval_both_ways_are_one() {
+        let polynomials = [
+            [0.0_f32, 0.0, 1.0, -3.0, 2.0, 0.0],
+            [-0.25, 1.0, -1.0, 0.0, 0.0, 0.0],
+            [1.0e-30, -3.0e-30, 2.0e-30, 0.0, 0.0, 0.0],
+            [-0.03, 0.61, -2.7, 4.1, -1.98, 0.0],
+            [0.0, -1.0, 1.0, 0.0, 0.0, 0.0],
+            [-1.0, 1.0, -1.0, 1.0, -1.0, 1.0],
+            [0.0; 6],
+            [f32::NAN; 6],
+        ];
+        for p in polynomials.map(Polynomial::new) {
+            for [lo, hi] in [[0.0, 1.0], [0.0, 0.5], [0.5, 1.0], [0.25, 0.75], [0.3, 0.3], [0.5, f32::NAN]] {
+                assert_eq!(p.roots_inside(&lo, &hi), p.roots_between(&lo, &hi), "{p:?} in [{lo}, {hi}]");
+            }
+        }
+        let line = Polynomial::new([-1.5_f32, 1.0]);
+        assert_eq!(line.roots_inside(&0.0, &2.0), Err(RootsError::BadInterval), "beyond its range");
+    }
+}

@@ -359,10 +359,10 @@ mod tests {
         ];
         for p in polynomials.map(Polynomial::new) {
             for [lo, hi] in [[0.0, 1.0], [0.0, 0.5], [0.5, 1.0], [0.25, 0.75], [0.3, 0.3], [0.5, f32::NAN]] {
-                assert_eq!(p.roots_inside(&lo, &hi), p.roots_between(&lo, &hi), "{p:?} in [{lo}, {hi}]");
+                assert_eq!(p.roots_inside(&lo, &hi, &0.0), p.roots_between(&lo, &hi), "{p:?} in [{lo}, {hi}]");
             }
         }
         let line = Polynomial::new([-1.5_f32, 1.0]);
-        assert_eq!(line.roots_inside(&0.0, &2.0), Err(RootsError::BadInterval), "beyond its range");
+        assert_eq!(line.roots_inside(&0.0, &2.0, &0.0), Err(RootsError::BadInterval), "beyond its range");
     }
 }

@@ -208,7 +208,7 @@ mod tests {
                     };
                     let one = Cell::new(&scene, at);
                     for k in 0..=40 {
-                        let q = part.point(&(f64::from(k) / 40.0));
+                        let q = part.eval(&(f64::from(k) / 40.0));
                         let w = q.minus(&one.centre);
                         least = least.min((w.norm_sq() - 2.0 * radius * w.dot(&one.normal)) / (radius * radius));
                     }

@@ -7,7 +7,7 @@ use crate::buffer::BufferFull;
 use crate::certificate::condition::{Workspace, judge};
 use crate::certificate::effective::{Decision, EffectiveEpsilon, bracket};
 use crate::certificate::singular::neighbourhoods;
-use crate::certificate::{Claim, Piece, Placed, Verdict};
+use crate::certificate::{Claim, Extent, Neighbourhood, Piece, Placed, Step, Verdict};
 use crate::curve::ideal::{self, IdealSegment};
 use crate::geometry::Point;
 use crate::lfs::bound::{Band, LfsBounds};
@@ -26,6 +26,27 @@ pub struct Prover<'m, S> {
     cells: Vec<Cell<S>>,
     limit: usize,
     open: Vec<u32>,
+    stretches: Option<Stretches<S>>,
+}
+
+/// Where floors serve: it depends on the claim and not on the samples.
+#[derive(Debug)]
+struct Stretches<S> {
+    claim: Claim<S>,
+    places: Vec<Neighbourhood<S>>,
+    steps: Vec<Step<S>>,
+    extents: Vec<Extent<S>>,
+}
+
+impl<S: Directed> Stretches<S> {
+    /// The same floors and the same ε.
+    fn serve(&self, claim: &Claim<S>) -> bool {
+        let Claim { epsilon, min_distance, singular_floor, floor, .. } = &self.claim;
+        *epsilon == claim.epsilon
+            && *min_distance == claim.min_distance
+            && *singular_floor == claim.singular_floor
+            && *floor == claim.floor
+    }
 }
 
 impl<'m, S: Directed> Prover<'m, S> {
@@ -39,7 +60,7 @@ impl<'m, S: Directed> Prover<'m, S> {
         {
             cells = band.into_cells();
         }
-        Self { model, coefficients, cells, limit, open: Vec::new() }
+        Self { model, coefficients, cells, limit, open: Vec::new(), stretches: None }
     }
 
     /// All cells so far: roots first, then pairs of halves.
@@ -78,18 +99,29 @@ impl<'m, S: Directed> Prover<'m, S> {
         known: &[Piece<S>],
     ) -> Judgement<S> {
         let contacts = self.model.contacts();
-        self.with(|band, _| {
-            let (mut places, mut steps, mut extents) = (Vec::new(), Vec::new(), Vec::new());
+        let known_stretches = self.stretches.take().filter(|stretches| stretches.serve(claim));
+        let (judgement, stretches) = self.with(|band, _| {
+            let stretches = known_stretches.unwrap_or_else(|| {
+                let (mut places, mut steps, mut extents) = (Vec::new(), Vec::new(), Vec::new());
+                // Vectors are never full.
+                let _ = neighbourhoods(band.scene(), contacts, claim, &mut places, &mut steps, &mut extents);
+                Stretches { claim: claim.clone(), places, steps, extents }
+            });
             let mut work = Workspace { known, pieces: Vec::new(), cells: Vec::new() };
-            let mut run = || -> Result<Verdict<S>, BufferFull> {
-                neighbourhoods(band.scene(), contacts, claim, &mut places, &mut steps, &mut extents)?;
-                judge(band, samples, claim, &extents, stop, &mut work)
-            };
             // Vectors are never full.
-            let verdict = run().unwrap_or(Verdict::Unknown);
-            let roots = band.roots();
-            Judgement { verdict, pieces: work.pieces, neighbourhoods: places, steps, cells: Vec::new(), roots }
-        })
+            let verdict = judge(band, samples, claim, &stretches.extents, stop, &mut work).unwrap_or(Verdict::Unknown);
+            let judgement = Judgement {
+                verdict,
+                pieces: work.pieces,
+                neighbourhoods: stretches.places.clone(),
+                steps: stretches.steps.clone(),
+                cells: Vec::new(),
+                roots: band.roots(),
+            };
+            (judgement, stretches)
+        });
+        self.stretches = Some(stretches);
+        judgement
     }
 
     /// Bounds of the effective ε of samples, sorted as for [`Prover::judge`], with upper ≤ (1 + tolerance)·lower if the limits of the

@@ -205,7 +205,7 @@ where
             let [a, b] = &task.span;
             let m = S::midpoint(a, b);
             if shape.half <= need.clone() * &S::ratio(1, 8)
-                && let Some(witness) = self.witness(segment, &m, [from, to])
+                && let Some(witness) = self.witness(segment, &m, &need, [from, to])
             {
                 self.verdict = Verdict::Refuted(witness);
                 if self.stop {
@@ -291,6 +291,15 @@ where
             // Halves that were made for other pieces cost nothing; the last pieces are worth finer cells. Nothing is gained
             // where a cell is long only because its radii are not known.
             let fine = shape.half <= need.clone() * &self.claim.finest;
+            // A medial point that is nearer than the claim allows: only a shorter piece can hold, and asks less of all other cells.
+            if !fine && self.band.farthest_hoped(cell, &shape.middle, need) < *need {
+                let count = self.cells.items().len();
+                for from in next - 1..count {
+                    self.cells.items_mut().swap(kept, from);
+                    kept += 1;
+                }
+                break;
+            }
             let [extent, movable] = self.band.extent(cell, need);
             let least = need.clone() * &self.claim.finest.clone().mul_pow2(-4);
             let large = (extent > shape.half || (fine && extent > least)) && movable > least.mul_pow2(-4);
@@ -331,29 +340,39 @@ where
     }
 
     /// The condition fails at a point: every sample is farther away than ε times an upper bound of its lfs.
-    fn witness(&self, segment: u32, t: &S, open: [usize; 2]) -> Option<Witness<S>> {
-        let point = self.band.scene().curve.segment(segment)?.point(t);
-        let slop = self.band.slop();
+    fn witness(&mut self, segment: u32, t: &S, need: &S, open: [usize; 2]) -> Option<Witness<S>> {
+        let curve = self.band.scene().curve;
+        let point = curve.segment(segment)?.point(t);
+        let slop = self.band.slop().clone();
+        // First by the best that could be shown of each cell, then by what is shown of the best one.
         let mut best = (S::infinity(), 0);
         for &cell in self.cells.items().get(open[0]..open[1])? {
-            let farthest = self.band.cells().get(cell as usize).map_or_else(S::infinity, |c| c.farthest(&point));
+            let farthest = self.band.farthest_hoped(cell, &point, need);
             if farthest < best.0 {
                 best = (farthest, cell);
             }
         }
-        let (lfs, cell) = (best.0 + slop, best.1);
+        let (mut lfs, cell) = (best.0 + &slop, best.1);
         if !lfs.is_finite() {
             return None;
         }
         let distance =
-            self.samples.iter().map(|s| s.point.distance_sq(&point)).fold(S::infinity(), S::min).sqrt() - slop;
-        let allowed = lfs.clone() * &self.claim.epsilon * &(S::one() + &S::unit_roundoff().mul_pow2(4));
+            self.samples.iter().map(|s| s.point.distance_sq(&point)).fold(S::infinity(), S::min).sqrt() - &slop;
         let floor = match &self.claim.min_distance {
             Some(min) => min.clone(),
-            None => self.claim.singular_floor.clone() * self.band.scene().curve.diagonal,
+            None => self.claim.singular_floor.clone() * curve.diagonal,
         };
+        let fails = |lfs: &S| {
+            let allowed = lfs.clone() * &self.claim.epsilon * &(S::one() + &S::unit_roundoff().mul_pow2(4));
+            distance >= allowed && distance >= floor
+        };
+        if !fails(&lfs) {
+            return None;
+        }
+        self.band.enclose(cell, need);
+        lfs = self.band.cells().get(cell as usize)?.farthest(&point) + &slop;
         let at = CurveParam { segment, t: t.clone() };
-        (distance >= allowed && distance >= floor).then_some(Witness { at, point, distance, lfs, cell })
+        fails(&lfs).then_some(Witness { at, point, distance, lfs, cell })
     }
 
     fn add(&mut self, segment: u32, span: [S; 2], sample: u32, reason: Reason<S>) -> Result<(), BufferFull> {

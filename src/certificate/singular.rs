@@ -4,7 +4,7 @@
 //! path where ε·lfs is below that floor. That p lies on such a stretch is a claim of its own, and is proved from single feet:
 //! r(f, d) ≤ ρ puts a point of M within ρ of f, so lfs(f) ≤ ρ.
 //!
-//! * A **place** is a foot with lfs ≤ 1e-7 of the diagonal. One is looked for beside every corner, contact and retracted handle,
+//! * A **place** is a foot with lfs ≤ 1e-7 of the diagonal. One is looked for beside every corner, open end, contact and retracted handle,
 //!   nearer and nearer, by the radii of tangent disks; a point of C that such a disk cannot hold proves it. So one rule finds all kinds of
 //!   singular points, and says nothing of strokes that only pass each other at a distance.
 //! * From there `March` goes along the path in both directions, in steps on all of which lfs is certainly below floor/ε:
@@ -32,14 +32,19 @@ const FEET: i32 = 8;
 /// hundredth of it.
 const AROUND: i32 = 24;
 
-/// An upper bound of the radius at a foot, and why.
-fn reach<S: Directed>(scene: &Scene<'_, S>, at: &CurveParam<S>, side: Side) -> (S, Option<CurveParam<S>>) {
+/// An upper bound of the radius at a foot, and why. Not looked for where the plain radius is `limit` or more: then the bound is infinite.
+fn reach<S: Directed>(scene: &Scene<'_, S>, at: &CurveParam<S>, side: Side, limit: &S) -> (S, Option<CurveParam<S>>) {
+    let none = (S::infinity(), None);
+    let Some(foot) = Foot::normal(scene.curve, at.clone(), side) else { return none };
+    let disk = tangent_disk(scene.curve, &foot);
+    if disk.radius >= *limit {
+        return none;
+    }
     let CurveParam { segment, t } = at.clone();
     let span = [t.clone(), t];
-    let Some(feet) = (FootSpan::Normal { segment, span, side }).feet(scene) else { return (S::infinity(), None) };
+    let Some(feet) = (FootSpan::Normal { segment, span, side }).feet(scene) else { return none };
     let bent = (osculates(scene, &feet), None);
-    let Some(foot) = Foot::normal(scene.curve, at.clone(), side) else { return bent };
-    let Some(touch) = tangent_disk(scene.curve, &foot).touch else { return bent };
+    let Some(touch) = disk.touch else { return bent };
     let reached = reaches(scene, &feet, touch.at.segment, &touch.at.t);
     if reached < bent.0 { (reached, Some(touch.at)) } else { bent }
 }
@@ -64,7 +69,7 @@ fn place<S: Directed>(scene: &Scene<'_, S>, segment: u32, t: &S, limit: &S) -> O
             }
             let at = CurveParam { segment, t: beside };
             for side in [Side::Left, Side::Right] {
-                let (lfs, witness) = reach(scene, &at, side);
+                let (lfs, witness) = reach(scene, &at, side, &limit.clone().twice());
                 if lfs <= *limit {
                     let point = curve.point(&at.t);
                     return Some(Place { foot: BoundedFoot { at, side, witness }, point, lfs });
@@ -104,7 +109,8 @@ pub fn neighbourhoods<S: Directed>(
     for (segment, index) in curve.segments.iter().zip(0_u32..) {
         for side in 0..2 {
             let end = segment.end(side);
-            if end.kind == JointKind::Corner || end.retracted {
+            // Contacts leave joints of the other stroke out: an open end may lie at one.
+            if matches!(end.kind, JointKind::Corner | JointKind::Open) || end.retracted {
                 let t = if side == 0 { S::zero() } else { S::one() };
                 march.around(index, &t, &limit)?;
             }
@@ -203,7 +209,7 @@ where
             let at = CurveParam { segment, t };
             let foot = s.point(&at.t);
             for side in [Side::Left, Side::Right] {
-                let (radius, witness) = reach(self.scene, &at, side);
+                let (radius, witness) = reach(self.scene, &at, side, &self.below);
                 if radius >= self.below {
                     continue;
                 }

@@ -17,7 +17,7 @@
 
 use crate::buffer::{BufferFull, Store};
 use crate::geometry::Point;
-use crate::medial::cell::{Cell, FootSpan, UNDIVIDED, slop};
+use crate::medial::cell::{Cell, UNDIVIDED, slop};
 use crate::medial::clear::Scene;
 use crate::medial::foot_set::roots;
 use crate::scalar::Directed;
@@ -167,27 +167,43 @@ impl<'a, S: Directed, B: Store<Cell<S>>> Band<'a, S, B> {
         if cell.half > g.clone().half() {
             return Discharge::Open;
         }
-        if !matches!(cell.feet, FootSpan::Corner { .. }) {
-            cell.enclose(&self.scene, g);
+        cell.look(&self.scene);
+        // Where not even the best of all lower bounds would do, none is proved.
+        let hoped = cell.hoped(&self.scene, g);
+        if hoped < *g && cell.distance_from(p, &hoped, g) - &margin < *g {
+            return Discharge::Open;
         }
+        cell.enclose(&self.scene, g);
         if cell.lower >= *g || cell.distance(p, g) - &margin >= *g {
             return Discharge::Done;
         }
         Discharge::Open
     }
 
+    /// Encloses the radii of a cell, as far as they are below `g`.
+    pub fn enclose(&mut self, index: u32, g: &S) {
+        self.with_cell(index, |scene, cell| cell.enclose(scene, g));
+    }
+
+    /// The least that the distance of a cell's farther end from p may come out as once its radii below `g` are enclosed.
+    pub fn farthest_hoped(&self, index: u32, p: &Point<S>, g: &S) -> S {
+        let cell = self.cells.items().get(index as usize);
+        cell.map_or_else(S::infinity, |cell| cell.farthest_from(p, &cell.hoped(&self.scene, g)))
+    }
+
     /// How large the part of a cell's capsule with radii below `g` is: half its length and its spread, and the spread alone.
     pub fn extent(&self, index: u32, g: &S) -> [S; 2] {
         let Some(cell) = self.cells.items().get(index as usize) else { return [S::zero(), S::zero()] };
-        let far = cell.upper.clone().min(g.clone()).max(cell.lower.clone());
-        let axis = far.clone() - &cell.lower;
-        let spread = cell.spread(&cell.lower, &far);
+        let lower = cell.hoped(&self.scene, g);
+        let far = cell.upper.clone().min(g.clone()).max(lower.clone());
+        let axis = far.clone() - &lower;
+        let spread = cell.spread(&lower, &far);
         // The spread may vanish where the capsule is long: what counts is what another division would change.
-        let mut movable = cell.half.clone() + &(cell.turning().clone() * &far);
-        // Where C touches a foot nothing is known from below, however small the cell; from above, a smaller one may know more as
-        // long as it knows nothing that helps.
-        if cell.lower <= self.slop && cell.upper < *g && movable < axis.clone().mul_pow2(-5) {
-            movable = S::zero();
+        let movable = cell.half.clone() + &(cell.turning().clone() * &far);
+        // Where C touches a foot nothing is known from below, however small the cell: its capsule gets thinner and not shorter. From above, a
+        // smaller one may know more as long as it knows nothing that helps.
+        if lower <= self.slop && cell.upper < *g && movable < axis.clone().mul_pow2(-5) {
+            return [spread, movable];
         }
         [axis.half() + &spread, movable]
     }

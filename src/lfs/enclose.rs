@@ -14,7 +14,7 @@
 use super::bound::{Band, Discharge, LfsBounds};
 use crate::buffer::{BufferFull, Store};
 use crate::geometry::Point;
-use crate::medial::cell::{Capsule, Cell, FootSpan};
+use crate::medial::cell::{Capsule, Cell};
 use crate::scalar::Directed;
 
 /// How exactly something is to be enclosed, and what it may cost.
@@ -90,6 +90,9 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
             }
             let spent = *steps == 0;
             *steps = steps.saturating_sub(1);
+            if (self.farthest_hoped(index, p, &goal) + &margin) * &outward < upper {
+                self.enclose(index, &goal);
+            }
             let far = self.cell(index).map_or_else(S::infinity, |cell| cell.farthest(p));
             let far = (far + &margin) * &outward;
             if far < upper {
@@ -109,7 +112,10 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
                     open.push(a)?;
                     open.push(b)?;
                 }
-                None => left = left.min(self.at_least(index, p, &margin, &goal)),
+                None => {
+                    self.enclose(index, &goal);
+                    left = left.min(self.at_least(index, p, &margin, &goal));
+                }
             }
         }
         let lower = goal.min(left).max(S::zero());
@@ -170,7 +176,7 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
             let spent = *steps == 0;
             *steps = steps.saturating_sub(1);
             if !spent {
-                self.enclose_radii(index, &goal);
+                self.enclose(index, &goal);
             }
             let Some(cell) = self.cell(index) else { continue };
             // lfs is nowhere above the longest radius.
@@ -217,7 +223,7 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
             let spent = steps == 0;
             steps = steps.saturating_sub(1);
             if !spent {
-                self.enclose_radii(index, cap);
+                self.enclose(index, cap);
             }
             let Some(cell) = self.cell(index) else { continue };
             if cell.lower >= *cap {
@@ -243,14 +249,6 @@ impl<S: Directed, B: Store<Cell<S>>> Band<'_, S, B> {
 
     fn cell(&self, index: u32) -> Option<&Cell<S>> {
         self.cells().get(index as usize)
-    }
-
-    fn enclose_radii(&mut self, index: u32, limit: &S) {
-        self.with_cell(index, |scene, cell| {
-            if !matches!(cell.feet, FootSpan::Corner { .. }) {
-                cell.enclose(scene, limit);
-            }
-        });
     }
 }
 

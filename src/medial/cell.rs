@@ -65,11 +65,11 @@ pub struct Cell<S> {
     /// h: no foot is farther than this (and e₀) from fₘ.
     pub half: S,
     /// Enclosure of the curvature towards d, where it is bounded.
-    bend: Option<[S; 2]>,
+    pub(super) bend: Option<[S; 2]>,
     /// No unit direction is farther than this from nₘ.
-    turn: S,
+    pub(super) turn: S,
     /// Errors of fₘ and nₘ.
-    errors: [S; 2],
+    pub(super) errors: [S; 2],
     /// At most r(f, d), for all feet.
     pub lower: S,
     /// At least r(f, d), for all feet.
@@ -78,7 +78,9 @@ pub struct Cell<S> {
     pub witness: Option<CurveParam<S>>,
     /// r at the first foot, in the middle and at the last one, as found without proof: where the search for bounds starts.
     pub guess: [S; 3],
-    /// The bounds were looked for up to this radius; below zero: not at all.
+    /// The upper bound and the plain radii were looked for.
+    pub looked: bool,
+    /// The lower bound was looked for up to this radius; below zero: not at all.
     pub asked: S,
     /// Index of the first of its two halves, in a band.
     pub children: u32,
@@ -274,12 +276,14 @@ impl<S: Directed> Cell<S> {
             upper: S::infinity(),
             witness: None,
             guess: [-S::one(), -S::one(), -S::one()],
+            looked: false,
             asked: -S::one(),
             children: UNDIVIDED,
             feet,
         };
         if let FootSpan::Corner { end } = &cell.feet {
             cell.upper = if singular(scene, *end) { zero() } else { S::infinity() };
+            cell.looked = true;
             cell.asked = S::infinity();
             cell.turn = zero();
             if let Some(p) = scene.curve.end_point(*end) {
@@ -358,19 +362,30 @@ impl<S: Directed> Cell<S> {
     /// At most the distance from p to every medial point of the cell with a radius below `limit`; the rounding of plain
     /// numbers is not allowed for.
     pub fn distance(&self, p: &Point<S>, limit: &S) -> S {
-        let far = self.upper.clone().min(limit.clone()).max(self.lower.clone());
-        let d = distance_sq_to_segment(p, &self.axis(&self.lower), &self.axis(&far)).sqrt();
-        d - &self.spread(&self.lower, &far)
+        self.distance_from(p, &self.lower, limit)
+    }
+
+    /// The same if all radii were at least `lower`.
+    pub fn distance_from(&self, p: &Point<S>, lower: &S, limit: &S) -> S {
+        let far = self.upper.clone().min(limit.clone()).max(lower.clone());
+        let d = distance_sq_to_segment(p, &self.axis(lower), &self.axis(&far)).sqrt();
+        d - &self.spread(lower, &far)
     }
 
     /// At least the distance from p to every medial point of the cell, of which there are some; infinite where nothing is
     /// known. The rounding of plain numbers is not allowed for.
     pub fn farthest(&self, p: &Point<S>) -> S {
+        self.farthest_from(p, &self.lower)
+    }
+
+    /// The same if all radii were at least `lower`.
+    pub fn farthest_from(&self, p: &Point<S>, lower: &S) -> S {
         if !self.upper.is_finite() {
             return S::infinity();
         }
-        let (a, b) = (p.distance(&self.axis(&self.lower)), p.distance(&self.axis(&self.upper)));
-        a.max(b) + &self.spread(&self.lower, &self.upper)
+        let lower = lower.clone().min(self.upper.clone());
+        let (a, b) = (p.distance(&self.axis(&lower)), p.distance(&self.axis(&self.upper)));
+        a.max(b) + &self.spread(&lower, &self.upper)
     }
 
     /// All of its medial points with a radius below `limit` lie within this; the rounding of plain numbers is not allowed for.

@@ -124,6 +124,15 @@ impl<S: Directed> Scene<'_, S> {
         ends.into_iter().filter(move |end| *end != near && self.curve.end_point(*end) == point)
     }
 
+    /// A segment is that of the feet, or has an end at one of theirs: [`clears`] has a form for it with a factor divided out.
+    pub(super) fn touches(&self, feet: &Feet<S>, segment: u32) -> bool {
+        feet.segment == segment
+            || [0, 1].into_iter().any(|side| {
+                (feet.from.is_some() || side == feet.side)
+                    && self.meeting(EndId::new(feet.segment, side), segment).next().is_some()
+            })
+    }
+
     /// Two ends that meet are those of one smooth joint: their tangents are opposite for good.
     fn smooth(&self, near: EndId, other: EndId) -> bool {
         self.curve.end(near).is_some_and(|e| e.kind == JointKind::Smooth) && self.curve.joint(near).any(|e| e == other)
@@ -150,37 +159,34 @@ impl<S: Directed> Interval<S> {
 
 /// No point of the piece lies inside the open disks of radius R at any of the feet. `false` means: not proved.
 pub fn clears<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, piece: &Stretch<S>, radius: &S) -> bool {
+    let Some(k) = inverse(feet, radius) else { return false };
+    // On the same segment the divided form is as good as plain differences everywhere.
+    near(scene, feet, piece, radius, &k)
+        || !(feet.from.is_some() && feet.segment == piece.segment) && plain(scene, feet, piece, &k)
+}
+
+/// The same by the forms alone that have a common factor divided out.
+pub(super) fn clears_nearby<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, piece: &Stretch<S>, radius: &S) -> bool {
+    inverse(feet, radius).is_some_and(|k| near(scene, feet, piece, radius, &k))
+}
+
+/// K.
+fn inverse<S: Directed>(feet: &Feet<S>, radius: &S) -> Option<Interval<S>> {
     let k = Interval::point(radius.clone()).twice() / &feet.length;
-    if !k.hi().is_finite() {
-        return false;
-    }
-    match &feet.from {
-        Some(from) => {
-            let same = feet.segment == piece.segment;
-            if same && own(scene, feet, from, piece, &k) {
-                return true;
-            }
-            for side in [feet.side, 1 - feet.side] {
-                let near = EndId::new(feet.segment, side);
-                if scene.meeting(near, piece.segment).any(|other| across(scene, feet, near, other, from, piece, radius))
-                {
-                    return true;
-                }
-            }
-            // The divided form is as good as plain differences everywhere.
-            if same {
-                return false;
-            }
-        }
-        None => {
-            let at = EndId::new(feet.segment, feet.side);
-            let own = Some(at).filter(|at| at.segment() == piece.segment);
-            if own.into_iter().chain(scene.meeting(at, piece.segment)).any(|end| at_fan(scene, feet, end, piece, &k)) {
-                return true;
-            }
-        }
-    }
-    plain(scene, feet, piece, &k)
+    k.hi().is_finite().then_some(k)
+}
+
+fn near<S: Directed>(scene: &Scene<'_, S>, feet: &Feet<S>, piece: &Stretch<S>, radius: &S, k: &Interval<S>) -> bool {
+    let Some(from) = &feet.from else {
+        let at = EndId::new(feet.segment, feet.side);
+        let own = Some(at).filter(|at| at.segment() == piece.segment);
+        return own.into_iter().chain(scene.meeting(at, piece.segment)).any(|end| at_fan(scene, feet, end, piece, k));
+    };
+    feet.segment == piece.segment && own(scene, feet, from, piece, k)
+        || [feet.side, 1 - feet.side].into_iter().any(|side| {
+            let near = EndId::new(feet.segment, side);
+            scene.meeting(near, piece.segment).any(|other| across(scene, feet, near, other, from, piece, radius))
+        })
 }
 
 /// Same segment, divided by (v−u)².

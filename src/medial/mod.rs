@@ -8,6 +8,7 @@
 pub mod cell;
 pub mod clear;
 pub mod disk;
+mod family;
 pub mod foot;
 pub mod foot_set;
 mod pencil;

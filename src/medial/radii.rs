@@ -11,8 +11,9 @@
 //! How good the bounds are depends on what was found without proof, not whether they hold.
 
 use super::cell::{Cell, FootSpan, slop};
-use super::clear::{Feet, Scene, Stretch, clears, osculates, reaches};
+use super::clear::{Feet, Scene, Stretch, clears, clears_nearby, osculates, reaches};
 use super::disk::tangent_disk;
+use super::family::Family;
 use super::foot::{Foot, Side};
 use crate::curve::{CurveParam, EndId};
 use crate::geometry::{Point, Vector};
@@ -44,19 +45,18 @@ impl<S: Directed> Cell<S> {
         }
     }
 
-    /// Encloses the radii, as far as they are below `limit`.
+    /// Finds the upper bound of the radii, and the plain disks that the search for a lower one starts from.
     ///
-    /// The lower bound starts from disks found without proof and falls until nothing of C is left that is not proved to be
-    /// outside; the upper bound is the best of those that the points give which bounded these disks.
-    pub fn enclose(&mut self, scene: &Scene<'_, S>, limit: &S) {
-        if self.asked >= *limit {
+    /// The upper bound is the best of those that the points give which bounded these disks.
+    pub fn look(&mut self, scene: &Scene<'_, S>) {
+        if self.looked {
             return;
         }
-        self.asked = limit.clone();
+        self.looked = true;
         let Some(feet) = self.feet.feet(scene) else { return };
         let mut witnesses: ArrayVec<CurveParam<S>, WITNESSES> = ArrayVec::new();
         for which in 0..3 {
-            if self.guess[which] >= S::zero() && which != 1 {
+            if self.guess[which] >= S::zero() {
                 continue;
             }
             let Some(foot) = self.plain_foot(scene, which) else { continue };
@@ -82,6 +82,10 @@ impl<S: Directed> Cell<S> {
             self.upper = osculating;
             self.witness = None;
         }
+    }
+
+    /// Where the search for a lower bound up to `limit` starts, and up to which radius it then has looked.
+    fn start(&self, scene: &Scene<'_, S>, limit: &S) -> [S; 2] {
         let [g0, g1, g2] = self.guess.clone();
         let least = g0.min(g1).min(g2);
         // Asked again for a little more, it would start again: so it looks a little farther.
@@ -89,12 +93,35 @@ impl<S: Directed> Cell<S> {
         // A plain disk says 0 where an end of another stroke lies at the foot, whether or not that stroke leads into it: then the search
         // starts from what is asked for.
         let capped = limit < least || least <= slop(scene);
-        self.asked = if capped { limit.clone() } else { S::infinity() };
+        let asked = if capped { limit.clone() } else { S::infinity() };
         let least = if capped { limit } else { least };
-        let start = least.clone() * &(S::one() - &self.first_fall(&least));
+        [least.clone() * &(S::one() - &self.first_fall(&least)), asked]
+    }
+
+    /// The largest lower bound of the radii that [`Cell::enclose`] may find.
+    pub fn hoped(&self, scene: &Scene<'_, S>, limit: &S) -> S {
+        if !self.looked || self.asked >= *limit {
+            return self.lower.clone();
+        }
+        let [start, _] = self.start(scene, limit);
+        start.max(self.lower.clone())
+    }
+
+    /// Encloses the radii, as far as they are below `limit`.
+    ///
+    /// The lower bound starts from disks found without proof and falls until nothing of C is left that is not proved to be
+    /// outside.
+    pub fn enclose(&mut self, scene: &Scene<'_, S>, limit: &S) {
+        if self.asked >= *limit {
+            return;
+        }
+        self.look(scene);
+        let [start, asked] = self.start(scene, limit);
+        self.asked = asked;
         if start <= self.lower {
             return;
         }
+        let Some(feet) = self.feet.feet(scene) else { return };
         let lower = self.empty(scene, &feet, start.clone());
         if lower < start {
             self.asked = S::infinity();
@@ -153,6 +180,7 @@ impl<S: Directed> Cell<S> {
             cell: self,
             scene,
             feet,
+            family: Family::new(scene, self, &start),
             radius: start,
             centre: self.centre.clone(),
             reach_sq: S::zero(),
@@ -188,53 +216,83 @@ struct Emptiness<'p, 's, S> {
     feet: &'p Feet<S>,
     /// The radius that is to be proved.
     radius: S,
-    /// All disks lie within a disk around this point,
+    /// The disks, and
+    family: Family<S>,
+    /// a disk around this point that holds them all,
     centre: Point<S>,
-    /// of this radius, squared.
+    /// its radius, squared.
     reach_sq: S,
     /// So many pieces may still be looked at.
     tries: u32,
 }
 
 impl<S: Directed> Emptiness<'_, '_, S> {
-    /// The disk around all disks, for the current radius.
+    /// The disks, and the one around all of them, for the current radius.
     fn renew(&mut self) {
+        self.family = Family::new(self.scene, self.cell, &self.radius);
         self.centre = self.cell.axis(&self.radius);
         let reach = self.cell.spread(&self.radius, &self.radius) + &self.radius + &slop(self.scene);
         let reach = reach * &(S::one() + &S::unit_roundoff().mul_pow2(5));
         self.reach_sq = reach.square();
     }
 
+    /// Nothing was shown that was not known.
+    fn give_up(&mut self) {
+        self.radius = self.cell.lower.clone();
+        self.renew();
+    }
+
     /// Lowers the radius until the arc is proved to be outside.
     fn arc(&mut self, index: u32) {
         let Some(arc) = self.scene.curve.arcs.get(index as usize) else { return };
         let Some(segment) = self.scene.curve.segment(arc.segment) else { return };
+        let touches = self.scene.touches(self.feet, arc.segment);
         let mut pending: ArrayVec<[S; 2], 48> = ArrayVec::new();
         pending.push(arc.span.clone());
         while let Some(span) = pending.pop() {
             // The box of a part is smaller than that of the arc, and forms cost more than a hundred times as much.
-            let part = || segment.cubic.part(&span[0], &span[1]).control_box();
-            if span != arc.span && part().distance_sq(&self.centre) > self.reach_sq {
+            let part = segment.cubic.part(&span[0], &span[1]);
+            if span != arc.span && part.control_box().distance_sq(&self.centre) > self.reach_sq
+                || self.family.clears(&part.points)
+            {
                 continue;
             }
             // A cell that takes more than this is too large, or touches C: its parent's bound stands.
             self.tries = self.tries.saturating_sub(1);
             if self.tries == 0 {
-                self.radius = self.cell.lower.clone();
-                self.renew();
+                self.give_up();
                 return;
             }
-            let piece = Stretch { segment: arc.segment, span };
-            if clears(self.scene, self.feet, &piece, &self.radius) {
-                continue;
-            }
-            let [a, b] = &piece.span;
+            let [a, b] = &span;
             let m = S::midpoint(a, b);
             // Shorter than the cell, or than what its directions move the disk by, a piece has nothing to gain.
             let least = self.cell.half.clone().twice().max(self.cell.turning().clone() * &self.radius.clone().half());
             let least = least.max(self.radius.clone().mul_pow2(-12));
-            let long = segment.point(a).distance(&segment.point(b)) > least;
-            if long && m > *a && m < *b && pending.remaining_capacity() >= 2 {
+            let [start, _, _, end] = &part.points;
+            let long = start.distance(end) > least && m > *a && m < *b && pending.remaining_capacity() >= 2;
+            let piece = Stretch { segment: arc.segment, span: span.clone() };
+            if touches || !long {
+                let shown = if long { clears_nearby } else { clears };
+                if shown(self.scene, self.feet, &piece, &self.radius) {
+                    continue;
+                }
+            } else {
+                // An end of the piece that no division takes out of the disks says how small they have to be.
+                let most = self.family.most(start).min(self.family.most(end));
+                if most < self.radius {
+                    let fall = self.cell.first_fall(&self.radius);
+                    let next = most * &(S::one() - &fall);
+                    if next <= self.cell.lower || next < self.radius.clone().mul_pow2(-4) {
+                        self.give_up();
+                        return;
+                    }
+                    self.radius = next;
+                    self.renew();
+                    pending.push(span);
+                    continue;
+                }
+            }
+            if long {
                 pending.push([m.clone(), b.clone()]);
                 pending.push([a.clone(), m]);
                 continue;
@@ -245,15 +303,14 @@ impl<S: Directed> Emptiness<'_, '_, S> {
                 self.radius = self.radius.clone() * &(S::one() - &fall);
                 fall = fall.twice();
                 if self.radius <= self.cell.lower || fall >= S::one() {
-                    self.radius = self.cell.lower.clone();
-                    self.renew();
+                    self.give_up();
                     return;
                 }
-                if clears(self.scene, self.feet, &piece, &self.radius) {
+                self.renew();
+                if self.family.clears(&part.points) || clears(self.scene, self.feet, &piece, &self.radius) {
                     break;
                 }
             }
-            self.renew();
         }
     }
 }

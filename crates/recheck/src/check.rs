@@ -591,3 +591,73 @@ fn reach_of(scene: &Scene<'_>, span: &Span, upper: &Upper) -> f64 {
         Upper::Point(_) => f64::INFINITY,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use feature_sampling::bezier::Cubic;
+    use feature_sampling::curve::door::DoorOptions;
+    use feature_sampling::model::CurveModel;
+
+    use super::*;
+
+    /// y = x²/4 for |x| ≤ 6. Its medial axis is the ray (0, y), y ≥ 2; the radius at a foot is √(4 + x²).
+    fn parabola() -> CurveModel<f64> {
+        let cubic = [(-6.0, 9.0), (-2.0, -3.0), (2.0, -3.0), (6.0, 9.0)].map(|(x, y)| Point::new(x, y));
+        CurveModel::new(&[(false, &[Cubic { points: cubic }])], &DoorOptions::default()).expect("a curve")
+    }
+
+    /// All stretches of one side of the parabola, halved so often, with their radii as claims. Outside, radii have no bound.
+    fn cells(left: bool, depth: u32) -> Tree {
+        fn divide(nodes: &mut Vec<Node>, left: bool, [from, to]: [f64; 2], depth: u32) {
+            let x = |t: f64| 12.0 * t - 6.0;
+            let nearest = if from < 0.5 && to > 0.5 { 0.0 } else { x(from).abs().min(x(to).abs()) };
+            let m = 0.5 * (from + to);
+            let split = depth > 0;
+            let (lower, upper) = match (split, left) {
+                (true, _) => (0.0, None),
+                (_, false) => (20.0, None),
+                // What has its own reflection beside it is bounded by curvature.
+                _ if x(m).abs() < 0.05 => ((4.0 + nearest * nearest).sqrt() * (1.0 - 2e-4), Some(Upper::Curvature)),
+                _ => {
+                    let reflected = Upper::Point(Place { segment: 0, t: 1.0 - m });
+                    ((4.0 + nearest * nearest).sqrt() * (1.0 - 2e-4), Some(reflected))
+                }
+            };
+            nodes.push(Node { split, lower, upper });
+            if split {
+                divide(nodes, left, [from, m], depth - 1);
+                divide(nodes, left, [m, to], depth - 1);
+            }
+        }
+        let mut nodes = Vec::new();
+        divide(&mut nodes, left, [0.0, 1.0], depth);
+        Tree { feet: Span::Side { segment: 0, left, from: 0.0, to: 1.0 }, nodes }
+    }
+
+    /// The nearest medial point may stand on feet that are farther than it is, but by less than twice: seen from (√8, 2) the ray begins at a
+    /// distance of √8, and the foot of its first point is at √12. Who looks at feet up to the distance in question only finds nothing there.
+    #[test]
+    fn feet_count_up_to_twice_the_distance() {
+        let model = parabola();
+        let scene = Scene::new(model.curve());
+        let certificate = Certificate {
+            curve: hash(&scene.curve),
+            corner_angle: 1.0,
+            epsilon: 0.5,
+            min_distance: None,
+            claimed: Claimed::Proved,
+            samples: Vec::new(),
+            pieces: Vec::new(),
+            neighbourhoods: Vec::new(),
+            trees: vec![cells(true, 13), cells(false, 6)],
+        };
+        let x = 8.0_f64.sqrt();
+        let shown = |lfs: f64| {
+            let mut checker = Checker::new(&scene, &certificate, false).expect("a sound certificate");
+            let ball = checker.spot(0, (x + 6.0) / 12.0).expect("a point");
+            checker.feature(&ball, lfs).expect("claims that hold")
+        };
+        assert!(shown(x - 2e-3), "the true bound is shown");
+        assert!(!shown(x + 1.5e-3), "lfs is less than that");
+    }
+}

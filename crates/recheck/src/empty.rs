@@ -64,6 +64,8 @@ pub(crate) fn empty(scene: &Scene<'_>, span: &Span, radius: f64, work: &mut Work
 struct Disks {
     span: Span,
     feet: Option<Feet>,
+    /// [`Feet::change`].
+    change: Option<(Real, Enclosed<f64>)>,
     radius: f64,
     /// They lie within a disk around this point,
     centre: Enclosed<f64>,
@@ -75,7 +77,9 @@ impl Disks {
     fn new(scene: &Scene<'_>, span: &Span, radius: f64) -> Self {
         let (centre, spread) = Capsule::new(scene, span).disk(radius);
         let reach = Real::point(radius) + Real::point(spread);
-        Self { span: *span, feet: Feet::new(scene, span), radius, centre, reach_sq: *reach.square().hi() }
+        let feet = Feet::new(scene, span);
+        let change = feet.as_ref().and_then(|feet| feet.change(scene, radius));
+        Self { span: *span, feet, change, radius, centre, reach_sq: *reach.square().hi() }
     }
 
     /// A stretch of a segment lies outside all of them.
@@ -88,16 +92,16 @@ impl Disks {
         }
         work.evaluations -= 1;
         if let Some(feet) = &self.feet
-            && misses(scene, feet, segment, range, self.radius)
+            && self.misses(scene, feet, segment, range)
         {
             return true;
         }
-        // The longer one is halved; directions count as the way that the far side of the disk makes.
+        // The longer one is halved; a cell counts as long as its disks move.
         let extent = |v: &Enclosed<f64>| v.x.width().max(v.y.width());
-        let own = self.feet.as_ref().map_or(f64::INFINITY, |f| {
-            let turned = if f.fan.is_some() { extent(&f.direction) * self.radius } else { 0.0 };
-            extent(&f.point) + turned
-        });
+        let own = match (&self.feet, &self.change) {
+            (Some(feet), Some((c, _))) => extent(&feet.point) + c.magnitude() * feet.length.hi(),
+            _ => f64::INFINITY,
+        };
         let [a, b] = range;
         let m = 0.5 * (a + b);
         let its = scene
@@ -109,43 +113,46 @@ impl Disks {
         let Some(halves) = self.span.halves() else { return false };
         halves.iter().all(|half| Self::new(scene, half, self.radius).miss(scene, segment, range, work))
     }
+
+    /// One of the forms shows it.
+    fn misses(&self, scene: &Scene<'_>, feet: &Feet, segment: u32, range: [f64; 2]) -> bool {
+        let radius = self.radius;
+        let k = Real::point(radius).twice() / feet.length;
+        let itself = Some(feet.near).filter(|e| e.segment() == segment);
+        let near = if feet.fan.is_some() {
+            let mut ends = itself.into_iter().chain(scene.at_point_of(feet.near, segment));
+            ends.any(|end| beside_fan(scene, feet, end, range, k))
+        } else {
+            let mut ends = [feet.near, feet.near.opposite()].into_iter();
+            (itself.is_some() && beside_own(scene, feet, range, k))
+                || ends.any(|near| {
+                    scene.at_point_of(near, segment).any(|other| across(scene, feet, near, other, range, radius))
+                })
+        };
+        near || self.change.as_ref().is_some_and(|change| apart(scene, feet, segment, range, radius, change))
+    }
 }
 
-/// One of the forms shows it.
-fn misses(scene: &Scene<'_>, feet: &Feet, segment: u32, range: [f64; 2], radius: f64) -> bool {
-    let k = Real::point(radius).twice() / feet.length;
-    let itself = Some(feet.near).filter(|e| e.segment() == segment);
-    let near = if feet.fan.is_some() {
-        let mut ends = itself.into_iter().chain(scene.at_point_of(feet.near, segment));
-        ends.any(|end| beside_fan(scene, feet, end, range, k))
-    } else {
-        let mut ends = [feet.near, feet.near.opposite()].into_iter();
-        (itself.is_some() && beside_own(scene, feet, range, k))
-            || ends.any(|near| {
-                scene.at_point_of(near, segment).any(|other| across(scene, feet, near, other, range, radius))
-            })
-    };
-    near || apart(scene, feet, segment, range, k)
-}
-
-/// Plain differences.
-fn apart(scene: &Scene<'_>, feet: &Feet, segment: u32, range: [f64; 2], k: Real) -> bool {
+/// G by its mean value: one disk, and how the others differ from it.
+fn apart(
+    scene: &Scene<'_>,
+    feet: &Feet,
+    segment: u32,
+    range: [f64; 2],
+    radius: f64,
+    (c, axis): &(Real, Enclosed<f64>),
+) -> bool {
     let Some(o) = scene.from(EndId::new(segment, 0)) else { return false };
     let [a, b] = seen(range, 0);
-    let [x, y] = points(o, a, b, &feet.point);
-    let mut ahead = towards(&x, &y, &feet.direction);
-    if let Some(mean) = &feet.mean {
-        let [mx, my] = points(o, a, b, &mean.point);
-        let (middle, turned) = (towards(&mx, &my, &mean.direction), towards(&x, &y, &mean.turning));
-        // Two enclosures of the same coefficients; only how large they may be matters.
-        for (a, (m, t)) in ahead.iter_mut().zip(middle.into_iter().zip(turned)) {
-            let other = m + mean.off * t;
-            if other.hi() < a.hi() {
-                *a = other;
-            }
-        }
+    let mean = &feet.mean;
+    let k = Real::point(radius).twice() / mean.direction.norm();
+    let ([x, y], [mx, my]) = (points(o, a, b, &feet.point), points(o, a, b, &mean.point));
+    let share = *c / k;
+    let mut ahead = towards(&mx, &my, &mean.direction);
+    for (a, t) in ahead.iter_mut().zip(towards(&x, &y, axis)) {
+        *a = *a + share * t;
     }
-    least(&disk(&x, &y, k, &ahead)) >= 0.0
+    least(&disk(&mx, &my, k, &ahead)) >= 0.0
 }
 
 /// d·(x, y), coefficient by coefficient.
@@ -310,10 +317,9 @@ pub(crate) fn reached(scene: &Scene<'_>, feet: &Feet, segment: u32, t: f64) -> f
         let q = q.point(&Real::point(t));
         let d = q.minus(&feet.point);
         offer(d.norm_sq(), feet.direction.dot(&d), feet.length);
-        if let Some(mean) = &feet.mean {
-            let ahead = mean.direction.dot(&q.minus(&mean.point)) + mean.off * mean.turning.dot(&d);
-            offer(d.norm_sq(), ahead, feet.length);
-        }
+        let mean = &feet.mean;
+        let ahead = mean.direction.dot(&q.minus(&mean.point)) + mean.off * mean.turning.dot(&d);
+        offer(d.norm_sq(), ahead, feet.length);
     }
     if let Some(u) = feet.u {
         if feet.near.segment() == segment

@@ -88,14 +88,14 @@ pub(crate) struct Fan {
     pub(crate) share: Real,
 }
 
-/// The middle of a stretch, for mean values: d·(q−f) = dₘ·(q−fₘ) + (u−uₘ) d'·(q−f) somewhere on the stretch, since d·F' = 0.
+/// The middle of a cell, for mean values: d·(q−f) = dₘ·(q−fₘ) + (u−uₘ) d'·(q−f) somewhere on it, since d·F' = 0. For a fan u is λ.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mean {
     /// fₘ.
     pub(crate) point: Enclosed<f64>,
     /// dₘ.
     pub(crate) direction: Enclosed<f64>,
-    /// d' on all of the stretch.
+    /// d' on all of the cell.
     pub(crate) turning: Enclosed<f64>,
     /// u − uₘ.
     pub(crate) off: Real,
@@ -116,8 +116,7 @@ pub(crate) struct Feet {
     /// |d|, above zero.
     pub(crate) length: Real,
     pub(crate) fan: Option<Fan>,
-    /// For a stretch.
-    pub(crate) mean: Option<Mean>,
+    pub(crate) mean: Mean,
 }
 
 /// What is known of where the medial points of a cell are, for radii that are not known yet.
@@ -237,7 +236,7 @@ impl Feet {
                     direction: normal(t),
                     length,
                     fan: None,
-                    mean: Some(mean),
+                    mean,
                 })
             }
             Span::Fan { end, other, left, from, to } => {
@@ -256,6 +255,14 @@ impl Feet {
                     unit(&first.plus(&normal(across, !left)))
                 };
                 let lambda = Real::new(from, to);
+                let middle = Real::point(lambda.middle());
+                let turning = second.minus(&first);
+                let mean = Mean {
+                    point: own.end,
+                    direction: first.plus(&turning.scaled(&middle)),
+                    turning,
+                    off: lambda - middle,
+                };
                 let first = first.scaled(&(Real::int(1) - lambda));
                 let direction = first.plus(&second.scaled(&lambda));
                 let length = direction.norm();
@@ -263,9 +270,29 @@ impl Feet {
                     return None;
                 }
                 let fan = Some(Fan { first, second, share: lambda });
-                Some(Self { near, u: None, left, point: own.end, direction, length, fan, mean: None })
+                Some(Self { near, u: None, left, point: own.end, direction, length, fan, mean })
             }
         }
+    }
+
+    /// For a fixed q, how G = |q−f|² − 2R d·(q−f), |d| = 1, changes along the cell: G = Gₘ − c a·(q−f) with the answer (c, a), somewhere on it.
+    ///
+    /// Along a stretch d' = −k F', k the curvature towards d, so G' = −2(1−kR) F'·(q−f). Where the handle is retracted F' = uT and k|F'| is how
+    /// fast T turns, (T × T')/|T|². In a fan d/|d| turns by (d × d')/|d|² = (e₁ × e₂)/|d|² towards left(d)/|d|.
+    pub(crate) fn change(&self, scene: &Scene<'_>, radius: f64) -> Option<(Real, Enclosed<f64>)> {
+        let radius = Real::point(radius);
+        let turned = self.direction.left();
+        let (twice, cube) = (self.mean.off.twice(), self.length.square() * self.length);
+        let Some(u) = self.u else {
+            return Some((twice * radius * self.mean.direction.cross(&self.mean.turning) / cube, turned));
+        };
+        let share = if scene.from(self.near)?.retracted {
+            let turn = self.direction.cross(&self.mean.turning) / cube;
+            u - if self.left { turn } else { -turn } * radius
+        } else {
+            Real::int(1) - self.bend(scene)? * radius
+        };
+        Some((twice * share, if self.left { turned.opposite() } else { turned }))
     }
 
     /// Curvature towards d; `None` where it has no bound, or the cell is a fan.

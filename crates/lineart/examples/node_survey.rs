@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let kinds = strokes::KINDS.len() as u64;
     let mut failures = 0;
     for (kind, name) in strokes::KINDS.iter().enumerate() {
-        let (mut edges, mut rounds, mut most) = (0, 0, 0);
+        let (mut edges, mut rounds, mut most, mut finer) = (0, 0, 0, 0);
         let (mut displacement, mut off_curve) = (0.0_f64, 0.0_f64);
         let count = sets.div_ceil(kinds);
         for seed in first..first + count {
@@ -25,6 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     edges += verdict.edges;
                     most = most.max(verdict.edges);
                     rounds = rounds.max(verdict.rounds);
+                    finer += usize::from(verdict.units > 5.0);
                     displacement = displacement.max(verdict.displacement);
                     off_curve = off_curve.max(verdict.off_curve);
                 }
@@ -35,8 +36,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         println!(
-            "{name}: {count} sets, {edges} edges (at most {most}), at most {rounds} rounds, moved by at most \
-             {displacement:.3} pitches, off the curve by at most {off_curve:.3}"
+            "{name}: {count} sets, {edges} edges (at most {most}), at most {rounds} rounds, {finer} on a finer lattice, moved by at \
+             most {displacement:.3} pitches, off the curve by at most {off_curve:.3}"
         );
     }
     if failures > 0 { Err(format!("{failures} failures").into()) } else { Ok(()) }

@@ -128,12 +128,14 @@ fn junctions_are_joined() {
     }
 }
 
-/// Copies, exact, reversed and displaced by less than the pitch, are one line with several owners.
+/// Copies, exact, reversed and displaced by less than three quarters of the pitch, are one line with several owners.
 #[test]
 fn copies_are_one() {
     let curve = "M0 0C1 2 3 -2 4 0";
     let (_, once) = noded(&[curve], 1e-5);
-    for copy in [curve, "M4 0C3 -2 1 2 0 0", "M0 1e-9C1 2 3 -2 4 1e-9"] {
+    let displaced =
+        ["M0 1e-9C1 2 3 -2 4 1e-9", "M0 7e-6C1 2.000007 3 -1.999993 4 7e-6", "M4 7e-6C3 -1.999993 1 2.000007 0 7e-6"];
+    for copy in [curve, "M4 0C3 -2 1 2 0 0"].into_iter().chain(displaced) {
         let (_, twice) = noded(&[curve, copy], 1e-5);
         assert_eq!(twice.edges.len(), once.edges.len(), "{copy}: no edge more");
         assert!(twice.edges.iter().all(|edge| twice.owners(edge).len() == 2), "{copy}: two owners each");

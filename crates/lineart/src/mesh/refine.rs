@@ -357,47 +357,45 @@ impl<'a> Refinement<'a> {
         if both_lines && self.stands[apex as usize] == Stand::Input {
             return Excuse::Apex;
         }
-        let shared = match (self.stands[a as usize], self.stands[b as usize]) {
-            (Stand::On(first), Stand::On(second)) if first != second => self.common_apex(first, second),
-            (Stand::On(first), Stand::Input) => self.other_end(first, b),
-            (Stand::Input, Stand::On(second)) => self.other_end(second, a),
-            (Stand::Input, Stand::Input) => self.apex_of_ends(a, b),
-            _ => None,
+        let on_one_shell = |apex: u32| {
+            let apex = self.mesh.point(apex);
+            let (to_a, to_b) = (self.mesh.point(a).minus(&apex), self.mesh.point(b).minus(&apex));
+            let (length_a, length_b) = (to_a.norm(), to_b.norm());
+            // The apex may be sharp on account of other lines.
+            let sharp = to_a.dot(&to_b) > 0.5 * (length_a * length_b);
+            // Cuts on one shell differ by rounding only, cuts on different shells by a quarter at least.
+            sharp && (length_a - length_b).abs() <= 1e-3 * length_a
         };
-        let Some(apex) = shared.map(|apex| self.mesh.point(apex)) else { return Excuse::None };
-        let (to_a, to_b) = (self.mesh.point(a).minus(&apex), self.mesh.point(b).minus(&apex));
-        let (length_a, length_b) = (to_a.norm(), to_b.norm());
-        // The apex may be sharp on account of other lines.
-        let sharp = to_a.dot(&to_b) > 0.5 * (length_a * length_b);
-        // Cuts on one shell differ by rounding only, cuts on different shells by a quarter at least.
-        if sharp && (length_a - length_b).abs() <= 1e-3 * length_a { Excuse::Shell } else { Excuse::None }
-    }
-
-    /// The sharp apex that two lines share.
-    fn common_apex(&self, first: u32, second: u32) -> Option<u32> {
-        let (first, second) = (self.lines[first as usize], self.lines[second as usize]);
-        let apexes = |line: Line| line.ends.into_iter().zip(line.sharp).filter(|(_, sharp)| *sharp).map(|(end, _)| end);
-        apexes(first).find(|&end| apexes(second).any(|other| other == end))
-    }
-
-    /// The sharp apex of a line from which another line leads to an input vertex.
-    fn other_end(&self, line: u32, vertex: u32) -> Option<u32> {
-        let Line { ends, sharp } = self.lines[line as usize];
-        let apexes = ends.into_iter().zip(sharp).filter(|(_, sharp)| *sharp).map(|(end, _)| end);
-        let mut joined = apexes.filter(|&end| end != vertex);
-        joined.find(|&end| self.is_joined(end, vertex, line))
-    }
-
-    /// The sharp apex that lines join to both of two input vertices.
-    fn apex_of_ends(&self, a: u32, b: u32) -> Option<u32> {
-        let mut found = None;
-        self.mesh.around(a, |h| {
-            let line = self.mesh.line(h);
-            if line != NONE && found.is_none() {
-                found = self.other_end(line, b).filter(|&end| end != a);
+        let shell = match (self.stands[a as usize], self.stands[b as usize]) {
+            (Stand::On(first), Stand::On(second)) if first != second => {
+                let theirs = self.sharp_ends(second);
+                self.sharp_ends(first).any(|end| theirs.clone().any(|other| other == end) && on_one_shell(end))
             }
-        });
-        found
+            (Stand::On(line), Stand::Input) => self.is_from_apex(line, b, &on_one_shell),
+            (Stand::Input, Stand::On(line)) => self.is_from_apex(line, a, &on_one_shell),
+            (Stand::Input, Stand::Input) => {
+                // Two vertices may have several apexes in common.
+                let mut found = false;
+                self.mesh.around(a, |h| {
+                    let line = self.mesh.line(h);
+                    found |= line != NONE && self.is_from_apex(line, b, &|end| end != a && on_one_shell(end));
+                });
+                found
+            }
+            _ => false,
+        };
+        if shell { Excuse::Shell } else { Excuse::None }
+    }
+
+    /// The ends at which a line meets others at less than 60°.
+    fn sharp_ends(&self, line: u32) -> impl Iterator<Item = u32> + Clone + use<> {
+        let Line { ends, sharp } = self.lines[line as usize];
+        ends.into_iter().zip(sharp).filter(|(_, sharp)| *sharp).map(|(end, _)| end)
+    }
+
+    /// A sharp end of a line that is suitable and that another line joins to an input vertex.
+    fn is_from_apex(&self, line: u32, vertex: u32, suits: &impl Fn(u32) -> bool) -> bool {
+        self.sharp_ends(line).any(|end| end != vertex && suits(end) && self.is_joined(end, vertex, line))
     }
 
     /// A line, cut or not, but not the given one joins two input vertices: the last piece at the second belongs to a line from

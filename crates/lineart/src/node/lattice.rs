@@ -1,6 +1,6 @@
 //! Iterated snap rounding: segments between lattice points, cut until they meet in vertices only.
 //!
-//! Coordinates are whole numbers of a unit, half a pitch at first. A round looks at every pair of segments of which one is new: where they
+//! Coordinates are whole numbers of a unit, a quarter of a pitch at first. A round looks at every pair of segments of which one is new: where they
 //! cross properly (exact signs, 128 bits), both are led through the lattice point nearest to the crossing; where an end of
 //! one lies within 0.7 units of the other, that one is led through it. Equal segments become one, with the
 //! owners of both. A round without a change ends it, and then no two segments meet but in a common vertex. Sources:
@@ -17,9 +17,9 @@
 //! **Drift.** Each time it is led through a vertex a segment moves a little, and could wander off in many steps. So no
 //! segment is led through a near vertex that is farther than a pitch (less the rounding of a crossing) from the chord it
 //! comes from. Only proper crossings and vertices exactly on a segment have to be obeyed whatever the distance. Where many
-//! strokes lie within a few units of each other, one leads to the next: in eleven of 20 000 sets of displaced copies a segment
-//! went up to five pitches astray, or the rounds were over. The way is as long in units on any lattice, so those
-//! sets are rounded again on a finer one ([`UNITS`]).
+//! strokes lie within a few units of each other, one could lead to the next, and a segment go astray by more than a pitch. The way is
+//! as long in units on any lattice, so such sets are rounded again on a finer one ([`UNITS`]): few, as strokes so near are one before
+//! they come here (`--example node_survey` counts them).
 
 use std::collections::HashMap;
 
@@ -31,7 +31,7 @@ use super::pairs::Boxes;
 use super::{Edge, NodeError, Noded, Options, Owner, Report, Vertex};
 
 /// Lattice units in a pitch: the first number serves, unless a segment would end up farther than a pitch from its chord.
-const UNITS: [f64; 3] = [2.0, 8.0, 32.0];
+const UNITS: [f64; 3] = [4.0, 16.0, 64.0];
 /// An end nearer to a segment than this is on it, in units; less than half a diagonal of a lattice square.
 const NEAR: f64 = 0.7;
 /// Half a diagonal of a lattice square: how far the rounding of a crossing moves it, in units.
@@ -66,7 +66,7 @@ struct Lattice<'s, 'a> {
     exact: Vec<Point<f64>>,
     by_place: HashMap<Place, u32>,
     segments: Vec<Segment>,
-    /// Ends of the chords before rounding, in units; and the strand of each.
+    /// Chords of the curves themselves, in units, before anything was merged or rounded; and the strand of each.
     chords: Vec<([Point<f64>; 2], u32)>,
 }
 
@@ -157,7 +157,7 @@ impl Lattice<'_, '_> {
             for stop in &strand.stops {
                 let exact = clusters.first(stop.point);
                 let vertex = self.vertex(nearest_place(&self.scaled(&exact)), exact);
-                let p = self.scaled(&stop.point);
+                let p = self.scaled(&strand.track.eval(stop.u));
                 if let Some((before, u, q)) = last
                     && before != vertex
                 {

@@ -13,6 +13,10 @@
 //! "Apart" is by two pitches: the lattice moves neither of two strokes by more than one, so it never leads a chord that is
 //! not flat through a vertex of another stroke, which might be near the chord and far from the curve.
 //!
+//! **Merging.** Points nearer to each other than three quarters of a pitch become one, and a curve that is so near to a vertex is
+//! led through it. That is as much as the promise of a pitch allows, and no less is taken because triangulations pay for what is
+//! left apart: between lines at a distance h over a length L, triangles without small angles number about 7 L / h.
+//!
 //! **Neighbours.** Pieces that share a vertex always touch there. Where a line through the vertex parts them they cannot
 //! meet elsewhere, and where the angle between their chords is large beside their bends, the chords come within two pitches
 //! only so near the vertex that bends do not count. Otherwise the halves away from the vertex are tested like any others, and the
@@ -58,6 +62,8 @@ struct Piece {
 
 /// A longer deviation than this share of the chord is halved whatever is near.
 const ROUND: f64 = 0.2;
+/// Points and curves nearer to each other than this become one, in pitches; rounding to the lattice adds a fifth at most.
+const MERGE: f64 = 0.75;
 /// Halvings of one piece at most.
 const MAX_DEPTH: u32 = 40;
 
@@ -65,7 +71,7 @@ const MAX_DEPTH: u32 = 40;
 pub(super) fn refine(strands: &mut [Strand<'_>], origin: &Point<f64>, options: &Options) -> Result<usize, NodeError> {
     let flat = options.pitch / 8.0;
     let apart = 2.0 * options.pitch;
-    let near = options.pitch / 4.0;
+    let near = MERGE * options.pitch;
     let mut clusters = Clusters::new(near, *origin);
     for strand in strands.iter_mut() {
         straighten(strand, flat, options.limit)?;
@@ -240,7 +246,7 @@ impl<'a> Search<'_, 'a> {
             let p = track_a.eval(a.from + share * (a.to - a.from));
             let guess = b.hull.beside(&p, f64::INFINITY).unwrap_or(share);
             let q = track_b.eval(track_b.nearest(&p, b.from, b.to, b.from + guess * (b.to - b.from)));
-            p.distance(&q) <= self.flat
+            p.distance(&q) <= self.near
         })
     }
 
@@ -320,8 +326,9 @@ impl<'a> Search<'_, 'a> {
         let between = b.hull.start.minus(&a.hull.start);
         let (s, t) = (between.cross(&chord_b) / area, between.cross(&chord_a) / area);
         let within = |x: f64| (-SLACK..=1.0 + SLACK).contains(&x);
-        // Also false where the chords are parallel. Where they part by less than half a pitch over all their length the lattice
-        // makes one line of them, and Newton's method would find a crossing anywhere along it.
+        // Also false where the chords are parallel. Where they cross and part by less than twice the merging distance over all their
+        // length, an end of one is as good as on the other: they are joined there, and Newton's method would find a crossing anywhere
+        // along them.
         let parts = area.abs() > 2.0 * self.near * a.hull.chord.max(b.hull.chord);
         if !(parts && within(s) && within(t)) {
             return;

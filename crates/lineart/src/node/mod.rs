@@ -16,8 +16,8 @@
 //! point, of which all edges together are noded, and the point of the curve that it stands for; at a crossing that is one
 //! point for both curves.
 //!
-//! **What is promised.** Edges meet in vertices only; no vertex is farther than the pitch from the chords that are led
-//! through it ([`Report::max_displacement`] says how far); pieces that vanish are shorter than that. Chords are within an
+//! **What is promised.** Edges meet in vertices only; no vertex is farther than the pitch from the chords of curves that are led
+//! through it ([`Report::max_displacement`] says how far); strokes that run within three quarters of it become one; pieces that vanish are shorter than that. Chords are within an
 //! eighth of the pitch of their curves wherever strokes come that near each other. The result is a function of the input
 //! alone.
 //!
@@ -78,8 +78,8 @@ impl Chain {
 /// How to node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// No point is moved farther than this, in user units. The unit of the lattice is half of it, or, where that would move
-    /// something farther, an eighth or a thirty-second.
+    /// No point is moved farther than this, in user units. The unit of the lattice is a quarter of it, or, where that would
+    /// move something farther, a sixteenth or a sixty-fourth. Points and curves nearer than three quarters of it become one.
     pub pitch: f64,
     /// Rounds of snap rounding at most.
     pub rounds: usize,

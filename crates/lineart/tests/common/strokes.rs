@@ -138,6 +138,8 @@ pub(crate) struct Verdict {
     /// What the noder itself says, in pitches.
     pub(crate) displacement: f64,
     pub(crate) rounds: usize,
+    /// Lattice units in a pitch.
+    pub(crate) units: f64,
 }
 
 fn cross(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i128 {
@@ -187,6 +189,7 @@ pub(crate) fn judge(paths: &[DrawingPath], chains: &[Chain], noded: &Noded, pitc
         edges: noded.edges.len(),
         displacement: noded.report.max_displacement / pitch,
         rounds: noded.report.rounds,
+        units: pitch / noded.unit,
         off_curve: 0.0,
     };
     for chain in chains {

@@ -191,7 +191,7 @@ mod tests {
                 } else {
                     FootSpan::Normal { segment: 0, span, side: if left { Side::Left } else { Side::Right } }
                 };
-                let cell = Cell::new(&scene, feet.clone());
+                let cell = Cell::new(&scene, feet);
                 let radius = 0.05 * 200.0_f64.powf(unit());
                 let long = 0.3 * unit().powi(3);
                 let start = unit() * (1.0 - long);
@@ -201,7 +201,7 @@ mod tests {
                 let mut least = f64::INFINITY;
                 for i in 0..=8 {
                     let t = from + width * f64::from(i) / 8.0;
-                    let at = match feet.clone() {
+                    let at = match feet {
                         FootSpan::Fan { .. } => FootSpan::Fan { end, other: end, left, span: [t, t] },
                         FootSpan::Normal { segment, side, .. } => FootSpan::Normal { segment, side, span: [t, t] },
                         corner @ FootSpan::Corner { .. } => corner,

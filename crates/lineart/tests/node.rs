@@ -40,6 +40,15 @@ fn near_copies_settle_within_a_pitch() {
     }
 }
 
+/// A path that runs to and fro within one parameter: its pieces there have an order, though not the first that comes to mind.
+#[test]
+fn paths_that_turn_back_on_the_spot_are_followed() {
+    for seed in [14677, 17744] {
+        let verdict = strokes::examine(3, seed);
+        assert!(verdict.is_ok(), "seed {seed}: {verdict:?}");
+    }
+}
+
 /// The judge is able to say no: the chains as they are, not noded.
 #[test]
 fn the_judge_sees_a_crossing() {

@@ -195,7 +195,7 @@ pub(crate) fn judge(paths: &[DrawingPath], chains: &[Chain], noded: &Noded, pitc
     for chain in chains {
         let track = Track::new(&paths[chain.path].cubics);
         // Pieces in the direction of the path: parameters and vertices.
-        let mut pieces: Vec<([f64; 2], [u32; 2])> = Vec::new();
+        let mut pieces: Vec<Piece> = Vec::new();
         for edge in &noded.edges {
             for owner in noded.owners(edge).iter().filter(|owner| owner.path as usize == chain.path) {
                 let [a, b] = owner.at;
@@ -224,14 +224,7 @@ pub(crate) fn judge(paths: &[DrawingPath], chains: &[Chain], noded: &Noded, pitc
                 }
             }
         }
-        // Pieces of no extent in the parameter stand at one place of the list: the walk decides their order.
-        for i in 1..pieces.len() {
-            let (reached, u) = (pieces[i - 1].1[1], pieces[i].0[0]);
-            let follows = (i..pieces.len()).take_while(|&j| pieces[j].0[0] == u).find(|&j| pieces[j].1[0] == reached);
-            if let Some(j) = follows {
-                pieces.swap(i, j);
-            }
-        }
+        walk(&mut pieces);
         for pair in pieces.windows(2) {
             let [(before, from), (after, to)] = [pair[0], pair[1]];
             if from[1] != to[0] {
@@ -243,6 +236,41 @@ pub(crate) fn judge(paths: &[DrawingPath], chains: &[Chain], noded: &Noded, pitc
         }
     }
     Ok(verdict)
+}
+
+/// A piece of a path: parameters and vertices, in the direction of the path.
+type Piece = ([f64; 2], [u32; 2]);
+
+/// Puts pieces of no extent in the parameter, which a sorted list has at one place, into an order in which the path can run
+/// through them.
+fn walk(pieces: &mut [Piece]) {
+    let mut from = 1;
+    while from < pieces.len() {
+        let u = pieces[from].0[0];
+        let count = pieces[from..].iter().take_while(|piece| piece.0 == [u, u]).count();
+        if let Some(order) = trail(pieces[from - 1].1[1], &pieces[from..from + count]) {
+            pieces[from..from + count].copy_from_slice(&order);
+        }
+        from += count.max(1);
+    }
+}
+
+/// All pieces in a row that begins at a vertex, each where the one before ends, if there is such a row (Hierholzer 1873).
+fn trail(start: u32, pieces: &[Piece]) -> Option<Vec<Piece>> {
+    let mut left = pieces.to_vec();
+    let (mut row, mut path) = (Vec::new(), vec![(start, None)]);
+    while let Some(&(vertex, piece)) = path.last() {
+        if let Some(next) = left.iter().position(|piece| piece.1[0] == vertex) {
+            let next = left.remove(next);
+            path.push((next.1[1], Some(next)));
+        } else {
+            path.pop();
+            row.extend(piece);
+        }
+    }
+    row.reverse();
+    let is_row = left.is_empty() && row.windows(2).all(|pair| pair[0].1[1] == pair[1].1[0]);
+    is_row.then_some(row)
 }
 
 /// Nodes one random set and judges it.

@@ -9,7 +9,7 @@
 //! then draws. Every loop is bounded by the job; every failure is a [`Fault`], after which the next job can be received.
 //!
 //! A controller that gets lfs from its host does the same with [`table::receive`] and [`table::draw`], in a third of the
-//! memory and the flash.
+//! memory and less than half of the flash.
 #![no_std]
 #![deny(unsafe_code)]
 

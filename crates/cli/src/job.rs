@@ -28,6 +28,9 @@ use crate::errors::{Failure, shown};
 /// Foot points a cubic where `--steps` does not say.
 const FOOT_POINTS: u32 = 32;
 
+/// The turn from which a joint is a corner, in degrees, where the chip makes the curve: that of its door's defaults.
+const CORNER_ANGLE: f64 = 1.0;
+
 /// Looks between two foot points.
 const LOOKS: u32 = 4;
 
@@ -54,6 +57,10 @@ pub(crate) fn bytes(
     };
     if bounds.grading.is_some() || bounds.start != 0.0 {
         return Err(Failure::usage("a job takes neither --grading nor --start"));
+    }
+    if lfs == Lfs::OnChip && engine.corner_angle().to_bits() != CORNER_ANGLE.to_bits() {
+        let message = "the chip takes corners from 1 degree on: a job takes --corner-angle only with --with-lfs";
+        return Err(Failure::usage(message));
     }
     let name = shown(&drawing.source);
     let foot_points = u16::try_from(steps.unwrap_or(FOOT_POINTS)).ok().filter(|n| (1..=1024).contains(n));

@@ -195,7 +195,12 @@ impl<S: Scalar> MedialModel<S> {
                 p.polyline += base;
             }
             base = path.last().map_or(base, |p| p.polyline + 1);
-            points.append(&mut path);
+            // A drawing of one path, or of one long one, is not copied.
+            if points.is_empty() {
+                points = path;
+            } else {
+                points.append(&mut path);
+            }
         }
         let (mut items, mut nodes) = (Vec::new(), Vec::new());
         // Vectors are never full.

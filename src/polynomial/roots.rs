@@ -181,7 +181,8 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
         self.real_roots_within(&S::zero())
     }
 
-    /// [`Self::real_roots`] with brackets of a relative width: see [`Self::roots_in_unit_within`].
+    /// [`Self::real_roots`] with brackets of a relative width w: see [`Self::roots_in_unit_within`]; beyond 1, where they are
+    /// reciprocals of such, up to w/(1 − w²/4).
     ///
     /// # Errors
     /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].

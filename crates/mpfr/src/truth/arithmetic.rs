@@ -322,7 +322,9 @@ fn change_of_sign<S: Scalar, const N: usize>(truth: &Polynomial<Truth, N>, roots
     let width = S::one().mul_pow2(-10);
     let holds = |r: &&Root<S>| {
         let signs = [&r.lower, &r.upper].map(|x| truth.eval(&lift(x)) > Truth::zero());
-        let most = (width.clone() + &S::unit_roundoff().mul_pow2(3)) * &r.value.clone().abs();
+        // Brackets beyond 1 are reciprocals of such: w/(1 − w²/4) wide.
+        let wide = width.clone() / &(S::one() - &width.clone().square().mul_pow2(-2));
+        let most = (wide + &S::unit_roundoff().mul_pow2(3)) * &r.value.clone().abs();
         signs[0] != signs[1] && r.upper.clone() - &r.lower <= most
     };
     let simple = roots.iter().filter(|r| r.kind == RootKind::Simple && r.lower < r.upper);

@@ -203,8 +203,8 @@ impl<S: Scalar> Pencil<S> {
         Values { a, b, slope, delta: d, a_slope, delta_slope: d_slope, approach }
     }
 
-    /// No disk in direction d touches the segment between two parameters: seen from a foot on it, it bends to the other side.
-    /// `false` says nothing, and is the answer for any other segment.
+    /// No disk in direction d touches the segment between two parameters: it bends to the other side of the tangent. Looked at only where
+    /// A is linear: on the foot's own segment, and on one that begins at the joint the foot stands on. `false` says nothing.
     #[inline]
     pub(super) fn turns_away(&self, span: &[S; 2]) -> bool {
         let [a0, a1, a2, a3] = &self.a;

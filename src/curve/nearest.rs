@@ -83,8 +83,7 @@ pub fn nearest_on_arc<S: Scalar>(segment: &Segment<S>, arc: &Arc<S>, p: &Point<S
     let ends = if b.distance_sq < a.distance_sq { b } else { a };
     if f0 > S::zero() && f1 < S::zero() {
         let width = S::unit_roundoff() * &S::int(4);
-        let middle = S::midpoint(&start, &end);
-        let inner = near(falling_zero(start, middle, end, &width, fall));
+        let inner = near(falling_zero(start, end, &width, &fall));
         if inner.distance_sq < ends.distance_sq {
             return inner;
         }

@@ -14,9 +14,9 @@
 //! coordinates, only where a plain difference was the best form at hand.
 
 use super::foot::Foot;
-use super::pencil::{Pencil, Values};
+use super::pencil::{Beyond, Pencil, Values};
 use crate::bezier::Cubic;
-use crate::bezier::newton::falling_zero;
+use crate::bezier::newton::{falling_zero, falling_zero_near};
 use crate::buffer::Keep;
 use crate::curve::{Arc, Curve, CurveParam, Segment};
 use crate::geometry::{Aabb, Point, Vector};
@@ -68,8 +68,10 @@ struct Search<'f, S> {
 #[derive(Debug)]
 struct Guarded<S> {
     arc: u32,
-    bounds: Aabb<S>,
     cubic: Cubic<S>,
+    /// The centre of the last disk that was found not to reach it, and a distance it keeps from there at least.
+    seen_from: Point<S>,
+    keeps: S,
 }
 
 /// Arcs that a guard can hold; where more meet its disk, it is not used.
@@ -125,14 +127,50 @@ impl<S: Scalar> Guard<S> {
             &disk.centre,
             self,
             |g, bounds| g.valid && bounds.distance_sq(&g.centre) <= reach_sq,
-            |g, leaf, bounds| {
+            |g, leaf, _| {
                 for (index, arc) in curve.arcs_in(leaf) {
                     let Some(segment) = curve.segment(arc.segment) else { continue };
                     let cubic = segment.cubic.part(&arc.span[0], &arc.span[1]);
-                    g.valid &= g.arcs.try_push(Guarded { arc: index, bounds: bounds.clone(), cubic }).is_ok();
+                    let arc = Guarded { arc: index, cubic, seen_from: g.centre.clone(), keeps: S::zero() };
+                    g.valid &= g.arcs.try_push(arc).is_ok();
                 }
             },
         );
+    }
+}
+
+impl<S: Scalar> Guarded<S> {
+    /// Proves, cheaply and far from tightly, that all of the arc lies outside the disk; `false` says nothing.
+    ///
+    /// What was proved of an earlier disk still serves where the centres are near each other. Else a distance that the arc keeps
+    /// from the centre follows from the coefficients of |q−c|² in Bernstein's basis. Both allow for rounding and the noise of
+    /// the coordinates.
+    #[inline]
+    fn is_out_of_reach(&mut self, disk: &Smallest<'_, S>, noise: &S) -> bool {
+        let rounding = S::unit_roundoff().mul_pow2(5);
+        let reach = (noise.clone().mul_pow2(3) + &disk.radius) * &(S::one() + &rounding);
+        let room = self.keeps.clone() - &reach;
+        if room > S::zero() && room.square() > disk.centre.distance_sq(&self.seen_from) {
+            return true;
+        }
+        let [q0, q1, q2, q3] = self.cubic.points.each_ref().map(|p| p.minus(&disk.centre));
+        let (n0, n1, n2, n3) = (q0.norm_sq(), q1.norm_sq(), q2.norm_sq(), q3.norm_sq());
+        let (fifth, tenth) = (S::ratio(1, 5), S::ratio(1, 10));
+        let coefficients = [
+            q0.dot(&q1),
+            q2.dot(&q3),
+            (q0.dot(&q2).twice() + &(n1.clone() * &S::int(3))) * &fifth,
+            (q1.dot(&q3).twice() + &(n2.clone() * &S::int(3))) * &fifth,
+            (q1.dot(&q2) * &S::int(9) + &q0.dot(&q3)) * &tenth,
+        ];
+        let least = coefficients.into_iter().fold(n0.clone().min(n3.clone()), S::min);
+        let keeps_sq = least - &((n0 + &n1 + &n2 + &n3) * &rounding);
+        if keeps_sq <= reach.square() {
+            return false;
+        }
+        self.seen_from = disk.centre.clone();
+        self.keeps = keeps_sq.sqrt();
+        true
     }
 }
 
@@ -157,10 +195,9 @@ pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guar
         search.visit(curve, *arc, Some(&at.t));
     }
     if guard.holds(&search.smallest) {
-        for Guarded { arc, bounds, cubic } in &guard.arcs {
-            let near = hint != Some(*arc) && search.smallest.meets(bounds, curve.noise);
-            if near && !search.smallest.is_left_out_by(cubic, curve.noise) {
-                search.visit(curve, *arc, None);
+        for guarded in &mut guard.arcs {
+            if hint != Some(guarded.arc) && !guarded.is_out_of_reach(&search.smallest, curve.noise) {
+                search.visit(curve, guarded.arc, None);
             }
         }
     } else {
@@ -241,7 +278,7 @@ impl<'f, S: Scalar> Search<'f, S> {
         TangentDisk { radius, touch }
     }
 
-    /// Shrinks the disk where the arc enters it, perhaps near the parameter `guess`.
+    /// Shrinks the disk where the arc enters it, perhaps at a maximum near the parameter `guess`.
     fn visit(&mut self, curve: &Curve<'_, S>, index: u32, guess: Option<&S>) {
         let Some(arc) = curve.arcs.get(index as usize) else { return };
         let Some(segment) = curve.segment(arc.segment) else { return };
@@ -253,7 +290,10 @@ impl<'f, S: Scalar> Search<'f, S> {
             self.pencil = Some((arc.segment, part, pencil));
         }
         if let Some((_, _, pencil)) = &self.pencil {
-            self.smallest.search_arc(&Span { pencil, arc, index }, segment, guess);
+            let span = Span { pencil, arc, index };
+            if !guess.is_some_and(|t| self.smallest.follow(&span, t)) {
+                self.smallest.search_arc(&span, segment);
+            }
         }
     }
 }
@@ -273,27 +313,8 @@ impl<S: Scalar> Smallest<'_, S> {
         d.dot(&Point::new(x.clone(), y.clone()).minus(&self.foot.point)) > -noise.clone()
     }
 
-    /// Proves, cheaply and far from tightly, that all of a cubic lies outside the current disk: the coefficients of |q−c|²
-    /// in Bernstein's basis are at least r², by more than rounding and the coordinates' noise. `false` says nothing.
-    #[inline]
-    fn is_left_out_by(&self, cubic: &Cubic<S>, noise: &S) -> bool {
-        let [q0, q1, q2, q3] = cubic.points.each_ref().map(|p| p.minus(&self.centre));
-        let (n0, n1, n2, n3) = (q0.norm_sq(), q1.norm_sq(), q2.norm_sq(), q3.norm_sq());
-        let rounding = (n0.clone() + &n1 + &n2 + &n3) * &S::unit_roundoff().mul_pow2(5);
-        let least = (noise.clone().mul_pow2(3) + &self.radius).square() + &rounding;
-        let three = S::int(3);
-        let nine = S::int(9);
-        let (five, ten) = (least.clone() * &S::int(5), least.clone() * &S::int(10));
-        (n0 >= least)
-            & (n3 >= least)
-            & (q0.dot(&q1) >= least)
-            & (q2.dot(&q3) >= least)
-            & (q0.dot(&q2).twice() + &(n1 * &three) >= five)
-            & (q1.dot(&q3).twice() + &(n2 * &three) >= five)
-            & (q1.dot(&q2) * &nine + &q0.dot(&q3) >= ten)
-    }
-
-    fn search_arc(&mut self, span: &Span<'_, S>, segment: &Segment<S>, guess: Option<&S>) {
+    /// Looks at all of an arc.
+    fn search_arc(&mut self, span: &Span<'_, S>, segment: &Segment<S>) {
         let Span { pencil, arc, .. } = span;
         if pencil.turns_away(&arc.span) {
             return;
@@ -308,20 +329,28 @@ impl<S: Scalar> Smallest<'_, S> {
                 self.offer(&pencil.at(&(t.clone() - &pencil.shift)), span, t);
             }
         }
-        let length = end.v.clone() - &start.v;
-        if guess.is_some() || !self.excludes(&start, &end, &length) {
-            self.search(span, start, end, guess);
-        }
+        self.search(span, start, end);
+    }
+
+    /// Looks at all of an arc that a neighbour's disk touches at the parameter `guess`, if a maximum near there is the only
+    /// one: Newton's method from the guess, and [`Self::is_only_maximum`]. `false` says nothing.
+    fn follow(&mut self, span: &Span<'_, S>, guess: &S) -> bool {
+        let Span { pencil, arc, .. } = span;
+        let [from, to] = arc.span.each_ref().map(|t| t.clone() - &pencil.shift);
+        let guess = guess.clone() - &pencil.shift;
+        let v = falling_zero_near(guess, &from, &to, &S::unit_roundoff().mul_pow2(6), |v| pencil.slope(v));
+        let Some(place) = v.map(|v| Place::new(pencil, v)) else { return false };
+        self.offer(&place.values, span, &(place.v.clone() + &pencil.shift));
+        self.is_only_maximum(pencil, &place, &from, &to)
     }
 
     /// Offers maxima of A/B between two places until no piece between can hold a larger one.
     ///
     /// A piece that [`Self::excludes`] does not rule out is split: at the foot's nearest point on it, where that lies inside
     /// (near it the quotient changes on a scale that the ends do not show); at a maximum, where the slopes at its ends
-    /// promise one; else in its middle. The first maximum is sought from the parameter `guess` on.
-    fn search(&mut self, span: &Span<'_, S>, start: Place<S>, end: Place<S>, guess: Option<&S>) {
+    /// promise one; else in its middle.
+    fn search(&mut self, span: &Span<'_, S>, start: Place<S>, end: Place<S>) {
         let (pencil, zero) = (span.pencil, S::zero());
-        let mut guess = guess.map(|t| t.clone() - &pencil.shift);
         let width = S::unit_roundoff().mul_pow2(6);
         let least = self.slack.clone() * &(end.v.clone() - &start.v);
         let mut left = start;
@@ -330,8 +359,7 @@ impl<S: Scalar> Smallest<'_, S> {
         for _ in 0..PIECES {
             let Some(right) = rights.last() else { return };
             let length = right.v.clone() - &left.v;
-            // With a guess the whole is known to hold a maximum.
-            if length <= least || rights.is_full() || (guess.is_none() && self.excludes(&left, right, &length)) {
+            if length <= least || rights.is_full() || self.excludes(&left, right, &length) {
                 left = match rights.pop() {
                     Some(right) => right,
                     None => return,
@@ -341,32 +369,55 @@ impl<S: Scalar> Smallest<'_, S> {
             let (l, r) = (&left.values, &right.values);
             let near = r.delta.minus(&l.delta).norm_sq() >= l.b.clone().min(r.b.clone());
             let split = if near && l.approach < zero && r.approach > zero {
-                let middle = S::midpoint(&left.v, &right.v);
-                falling_zero(left.v.clone(), middle, right.v.clone(), &width, |v| pencil.recession(v))
+                falling_zero(left.v.clone(), right.v.clone(), &width, &|v| pencil.recession(v))
             } else if l.slope > zero && r.slope < zero {
-                let middle = S::midpoint(&left.v, &right.v);
-                let start = guess.filter(|v| *v > left.v && *v < right.v).unwrap_or(middle);
-                falling_zero(left.v.clone(), start, right.v.clone(), &width, |v| pencil.slope(v))
+                falling_zero(left.v.clone(), right.v.clone(), &width, &|v| pencil.slope(v))
             } else {
                 S::midpoint(&left.v, &right.v)
             };
-            guess = None;
             // What was found so close to an end that nothing is split off is seen with its neighbourhood.
             let margin = length.mul_pow2(-10);
-            let place = Place::new(pencil, split);
-            self.offer(&place.values, span, &(place.v.clone() + &pencil.shift));
-            let inside = place.v.clone() - &left.v > margin && right.v.clone() - &place.v > margin;
-            let place = if inside {
-                place
-            } else {
-                let middle = Place::new(pencil, S::midpoint(&left.v, &right.v));
-                self.offer(&middle.values, span, &(middle.v.clone() + &pencil.shift));
-                middle
-            };
-            if rights.try_push(place).is_err() {
-                return;
+            let (low, high) = (left.v.clone() + &margin, right.v.clone() - &margin);
+            let middle = S::midpoint(&low, &high);
+            for v in [split, middle] {
+                let place = Place::new(pencil, v);
+                self.offer(&place.values, span, &(place.v.clone() + &pencil.shift));
+                if place.v > low && place.v < high {
+                    rights.keep(place);
+                    break;
+                }
             }
         }
+    }
+
+    /// No point between two parameters bounds a disk smaller than the current one by more than the slack, seen from a maximum
+    /// of A/B between them that was offered.
+    ///
+    /// With w = v − v* and β = 1/(2r), A − βB = p + ρw + w²G(w): p is 0 or less, ρ what Newton's method left, G of degree
+    /// four. Where G ≤ −g < 0, that is ρ²/4g at most. G is bounded from its innermost bracket outwards, on either side of v*.
+    ///
+    /// At a touching, |q−f| ≤ 4η for the noise η that A is diminished by, A − βB is at least −6η where r > 16η. So it lies
+    /// within w² ≤ 6η/g, where |Δ| is at least half of what it is at v* if 72η·(|d₁|²+|d₂|²+|d₃|²) ≤ g|Δ|².
+    fn is_only_maximum(&self, pencil: &Pencil<S>, place: &Place<S>, from: &S, to: &S) -> bool {
+        let Values { a, b, slope, .. } = &place.values;
+        let touching = &pencil.touching;
+        let far = touching.clone().mul_pow2(6);
+        if *a > self.bend_loose.clone() * b || *b <= far || self.radius.clone().square() <= far {
+            return false;
+        }
+        let Beyond { coefficients: [g0, g1, g2, g3], rounding, speeds_sq } =
+            pencil.beyond_tangent(&place.v, &place.values, &self.bend);
+        let bound = |width: S, g1: S, g3: S| {
+            let outward = |inner: S, own: &S| (inner * &width).max(S::zero()) + own;
+            outward(outward(outward(g3, &g2), &g1), &g0)
+        };
+        let right = bound(to.clone() - &place.v, g1.clone(), g3.clone());
+        let left = bound(place.v.clone() - from, -g1, -g3);
+        let g = -(right.max(left) + &rounding);
+        let rest = slope.clone() / b;
+        g > S::zero()
+            && rest.square() <= g.clone().mul_pow2(2) * &self.slack * a
+            && (speeds_sq * &S::int(18)).square() * touching <= (g * b).square()
     }
 
     /// No point between two places bounds a disk smaller than the current one by more than the slack: all coefficients of

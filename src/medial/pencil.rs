@@ -60,6 +60,16 @@ pub(super) struct Values<S> {
     pub(super) approach: S,
 }
 
+/// A − βB beyond its tangent at a parameter v.
+pub(super) struct Beyond<S> {
+    /// The coefficients of w² to w⁵ in A(v+w) − βB(v+w). That of w⁶ is −β|d₃|², never positive.
+    pub(super) coefficients: [S; 4],
+    /// The rounding of the first.
+    pub(super) rounding: S,
+    /// The sum of the squares of the coefficients of w, w² and w³ in Δ(v+w).
+    pub(super) speeds_sq: S,
+}
+
 impl<S: Scalar> Pencil<S> {
     /// Which of a segment's pencils serves best around the parameter t; the same answer means the same pencil.
     ///
@@ -227,6 +237,27 @@ impl<S: Scalar> Pencil<S> {
         // B'' = 2(|Δ'|² + Δ·Δ''), Δ'' = 2 (d₂ + 3 d₃ v).
         let b_bend = (d_slope.norm_sq() + &d.dot(&d_bend).twice()).twice();
         (a_slope * &b - &(a.clone() * &b_slope), a_bend * &b - &(a * &b_bend))
+    }
+
+    /// What A − βB has beyond its tangent at v.
+    #[inline]
+    pub(super) fn beyond_tangent(&self, v: &S, at: &Values<S>, beta: &S) -> Beyond<S> {
+        let [_, _, a2, a3] = &self.a;
+        let [_, _, d2, d3] = &self.delta;
+        let three_v = v.clone() * &S::int(3);
+        let a2 = a3.clone() * &three_v + a2;
+        let (d0, d1, d2) = (&at.delta, &at.delta_slope, d2.plus_scaled(&three_v, d3));
+        let b2 = d1.norm_sq() + &d0.dot(&d2).twice();
+        let b3 = (d1.dot(&d2) + &d0.dot(d3)).twice();
+        let b4 = d1.dot(d3).twice() + &d2.norm_sq();
+        let b5 = d2.dot(d3).twice();
+        let speeds_sq = d1.norm_sq() + &d2.norm_sq() + &d3.norm_sq();
+        let size = a2.clone().abs() + &((at.b.clone() + &speeds_sq) * beta);
+        Beyond {
+            coefficients: [a2 - &(b2 * beta), a3.clone() - &(b3 * beta), -(b4 * beta), -(b5 * beta)],
+            rounding: size * &S::unit_roundoff().mul_pow2(6),
+            speeds_sq,
+        }
     }
 
     /// −B'/2 and its derivative.

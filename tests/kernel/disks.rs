@@ -35,7 +35,8 @@ fn strokes<S: Scalar>(random: &mut Random) -> CurveModel<S> {
     CurveModel::new(&paths, &DoorOptions::default()).expect("a curve")
 }
 
-/// Walks along all segments of some drawings; the largest difference between radii, relatively.
+/// Walks along all segments of some drawings; the largest difference between radii, relatively, beyond what the noise η of
+/// the coordinates makes of 1/r = 2A/B: a share 2rη/B on either side.
 fn worst<S: Scalar>(drawings: u64) -> S {
     const STEPS: i32 = 120;
     let mut random = Random(7);
@@ -52,6 +53,9 @@ fn worst<S: Scalar>(drawings: u64) -> S {
                     let (alone, beside) = (tangent_disk(&curve, &foot), tangent_disk_beside(&curve, &foot, &mut guard));
                     if alone.radius != beside.radius {
                         let off = (alone.radius.clone() - &beside.radius).abs() / &alone.radius;
+                        let touch = beside.touch.and_then(|t| curve.point(&t.at)).expect("finite disks touch");
+                        let noise = beside.radius.clone() * curve.noise / &touch.distance_sq(&foot.point);
+                        let off = off - &(noise * &S::int(4));
                         assert!(off.is_finite(), "{:?} beside, {:?} alone", beside.radius, alone.radius);
                         worst = worst.max(off);
                     }

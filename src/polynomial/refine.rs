@@ -37,7 +37,8 @@ const ROUNDS: usize = 4;
 /// leaves that share of the step. Where this is below the resolution no further step is needed to see it.
 ///
 /// The bracket may be `width`·|x| wide. Where it stays inside [lower, upper] and values in the scalar's own precision are good
-/// enough for it, by a factor of two, no others are asked for.
+/// enough for it, by a factor of two, no others are asked for. Steps have to shrink fast then: seen from afar a pair of roots
+/// is a double root, to which steps lead by a third each, and what is left is half of the last.
 #[inline]
 pub(super) fn crossing<S: Scalar, const N: usize>(
     p: &Polynomial<S, N>,
@@ -81,7 +82,8 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             previous = step;
         } else {
             let wide = size.clone() * width;
-            let is_plain = is_converging && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
+            let is_fast = is_converging && step.clone().mul_pow2(4) <= previous;
+            let is_plain = is_fast && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
             if is_plain && curving.clone().mul_pow2(3) <= wide {
                 let half = wide.half();
                 let (left, right) = (x.clone() - &half, x.clone() + &half);

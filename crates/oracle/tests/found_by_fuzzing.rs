@@ -125,3 +125,10 @@ fn a_root_of_1e105_in_a_wide_bracket() {
     let c = [-1.438043545891893e-58, -3.556851672255464e98, -2.273788596691974e-143, 2.418429580981082e-112];
     check_roots(&c, -1.0, 1.0);
 }
+
+/// A pair of roots 2e-6 apart, seen from afar: a bracket a thousandth wide was put where steps shrank by a third each.
+#[test]
+fn a_wide_bracket_waits_until_steps_shrink_fast() {
+    let p = [-0.7318910211294397, 5.069375038138915, -12.869110107416773, 14.33789062499909, -6.546875, 1.0];
+    check_roots(&p, 0.0, 1.0);
+}

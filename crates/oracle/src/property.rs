@@ -192,7 +192,8 @@ pub fn check_closest(cubic: &Cubic<f64>, q: &Point<f64>, from: f64, to: f64) {
         assert!(part.distance_sq.sqrt() <= other + noise, "{}: {t} is nearer than {} on the part", say(), part.t);
     }
     // A closest point inside is stationary: one of the roots of the quintic, up to 1e-9 and what rounding its coefficients
-    // does (they carry the errors of several roundings of differences of coordinates). Where all points from there to a root
+    // does (they carry the errors of several roundings of differences of coordinates), or of the exact quintic, which where
+    // coordinates differ by 18 orders of magnitude can have roots that the rounded one has not. Where all points from there to a root
     // or an end are equally far up to the rounding of coordinates, as for queries so far away that a double does not hold
     // the difference, any of them is an answer.
     let quintic = distance_quintic(&b, q).coefficients;
@@ -207,7 +208,8 @@ pub fn check_closest(cubic: &Cubic<f64>, q: &Point<f64>, from: f64, to: f64) {
             let apart = |t: f64| (b.eval(&t).distance_sq(q).sqrt() - found.distance_sq.sqrt()).abs();
             to.into_iter().any(|t| (0..=16).all(|i| apart(found.t + (t - found.t) * f64::from(i) / 16.0) <= noise))
         };
-        let is_stationary = is_near || judge.is_covered(&roots, found.t) || is_level();
+        let is_exact = || exact.critical().is_some_and(|roots| roots.iter().any(|t| (t - found.t).abs() <= 1e-9));
+        let is_stationary = is_near || judge.is_covered(&roots, found.t) || is_level() || is_exact();
         assert!(is_stationary, "{}: {} is not stationary: {roots:?}", say(), found.t);
     }
 }

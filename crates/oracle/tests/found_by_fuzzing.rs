@@ -132,3 +132,16 @@ fn a_wide_bracket_waits_until_steps_shrink_fast() {
     let p = [-0.7318910211294397, 5.069375038138915, -12.869110107416773, 14.33789062499909, -6.546875, 1.0];
     check_roots(&p, 0.0, 1.0);
 }
+
+/// The closest point was right and the judge wrong: the quintic with rounded coefficients has no root there.
+#[test]
+fn a_stationary_point_that_the_rounded_quintic_does_not_know() {
+    let p = Point::new;
+    let cubic = Cubic::new(
+        p(2.464581871919335e-10, -1324351731.56073),
+        p(2.328308413171061e-10, 2.3295498863262775e-10),
+        p(-3584.177734375, 2.328306436538824e-10),
+        p(-3584.177734375, 2.328306436538824e-10),
+    );
+    check_closest(&cubic, &p(2.3283064365386963e-10, 2.3283064365386963e-10), 0.0, 1.0);
+}

@@ -396,13 +396,14 @@ impl<S: Scalar> Smallest<'_, S> {
     /// With w = v − v* and β = 1/(2r), A − βB = p + ρw + w²G(w): p is 0 or less, ρ what Newton's method left, G of degree
     /// four. Where G ≤ −g < 0, that is ρ²/4g at most. G is bounded from its innermost bracket outwards, on either side of v*.
     ///
-    /// At a touching, |q−f| ≤ 4η for the noise η that A is diminished by, A − βB is at least −6η where r > 16η. So it lies
-    /// within w² ≤ 6η/g, where |Δ| is at least half of what it is at v* if 72η·(|d₁|²+|d₂|²+|d₃|²) ≤ g|Δ|².
+    /// At a touching, |q−f| ≤ 4η for the noise η that A is diminished by, A − βB is at least −6η where r > 16η, and 2r ≥ |Δ| at
+    /// v*, which is more than 32η. So it lies within w² ≤ 6η/g, where |Δ| is at least half of what it is at v* if
+    /// 72η·(|d₁|²+|d₂|²+|d₃|²) ≤ g|Δ|².
     fn is_only_maximum(&self, pencil: &Pencil<S>, place: &Place<S>, from: &S, to: &S) -> bool {
         let Values { a, b, slope, .. } = &place.values;
         let touching = &pencil.touching;
         let far = touching.clone().mul_pow2(6);
-        if *a > self.bend_loose.clone() * b || *b <= far || self.radius.clone().square() <= far {
+        if *a > self.bend_loose.clone() * b || *b <= far {
             return false;
         }
         let Beyond { coefficients: [g0, g1, g2, g3], rounding, speeds_sq } =

@@ -84,10 +84,9 @@ const GUARDED: usize = 24;
 #[derive(Debug)]
 pub struct Guard<S> {
     centre: Point<S>,
+    /// 0 where the arcs are not complete.
     radius: S,
     arcs: ArrayVec<Guarded<S>, GUARDED>,
-    /// The arcs are complete.
-    valid: bool,
     /// What bounded the last disk.
     hint: Option<Touch<S>>,
 }
@@ -96,43 +95,36 @@ impl<S: Scalar> Guard<S> {
     /// A guard that knows nothing yet.
     pub fn new() -> Self {
         let zero = S::zero();
-        Self {
-            centre: Point::new(zero.clone(), zero.clone()),
-            radius: zero,
-            arcs: ArrayVec::new(),
-            valid: false,
-            hint: None,
-        }
+        Self { centre: Point::new(zero.clone(), zero.clone()), radius: zero, arcs: ArrayVec::new(), hint: None }
     }
 
     /// The disk lies inside.
     fn holds(&self, disk: &Smallest<'_, S>) -> bool {
-        self.valid
-            && disk.touch.is_some()
-            && disk.radius < self.radius
+        disk.radius < self.radius
             && disk.centre.distance_sq(&self.centre) <= (self.radius.clone() - &disk.radius).square()
     }
 
     /// Remembers the arcs around a disk, a quarter larger than it is.
     fn renew(&mut self, curve: &Curve<'_, S>, disk: &Smallest<'_, S>) {
         self.arcs.clear();
-        self.valid = disk.touch.is_some();
-        if !self.valid {
+        self.radius = S::zero();
+        if disk.touch.is_none() {
             return;
         }
         self.centre = disk.centre.clone();
         self.radius = disk.radius.clone() * &S::ratio(5, 4);
-        let reach_sq = self.radius.clone().square();
         curve.hierarchy().traverse(
             &disk.centre,
             self,
-            |g, bounds| g.valid && bounds.distance_sq(&g.centre) <= reach_sq,
+            |g, bounds| bounds.distance_sq(&g.centre) <= g.radius.clone().square(),
             |g, leaf, _| {
                 for (index, arc) in curve.arcs_in(leaf) {
                     let Some(segment) = curve.segment(arc.segment) else { continue };
                     let cubic = segment.cubic.part(&arc.span[0], &arc.span[1]);
                     let arc = Guarded { arc: index, cubic, seen_from: g.centre.clone(), keeps: S::zero() };
-                    g.valid &= g.arcs.try_push(arc).is_ok();
+                    if g.arcs.try_push(arc).is_err() {
+                        g.radius = S::zero();
+                    }
                 }
             },
         );
@@ -396,9 +388,9 @@ impl<S: Scalar> Smallest<'_, S> {
     /// With w = v − v* and β = 1/(2r), A − βB = p + ρw + w²G(w): p is 0 or less, ρ what Newton's method left, G of degree
     /// four. Where G ≤ −g < 0, that is ρ²/4g at most. G is bounded from its innermost bracket outwards, on either side of v*.
     ///
-    /// At a touching, |q−f| ≤ 4η for the noise η that A is diminished by, A − βB is at least −6η where r > 16η, and 2r ≥ |Δ| at
-    /// v*, which is more than 32η. So it lies within w² ≤ 6η/g, where |Δ| is at least half of what it is at v* if
-    /// 72η·(|d₁|²+|d₂|²+|d₃|²) ≤ g|Δ|².
+    /// At a touching, |q−f| ≤ 4η for the noise η that A is diminished by, A − βB is at least −6η where r > 16η. So it lies
+    /// within w² ≤ 6η/g, where |Δ| is at least half of what it is at v*, 16η, if 72η·(|d₁|²+|d₂|²+|d₃|²) ≤ g|Δ|² and |Δ| > 32η at
+    /// v*. The disk is that through v*, nothing else having been looked at, or a half-plane: |Δ| ≤ 2r, and r > 16η.
     fn is_only_maximum(&self, pencil: &Pencil<S>, place: &Place<S>, from: &S, to: &S) -> bool {
         let Values { a, b, slope, .. } = &place.values;
         let touching = &pencil.touching;

@@ -64,7 +64,7 @@ pub(super) struct Values<S> {
 pub(super) struct Beyond<S> {
     /// The coefficients of w² to w⁵ in A(v+w) − βB(v+w). That of w⁶ is −β|d₃|², never positive.
     pub(super) coefficients: [S; 4],
-    /// The rounding of the first.
+    /// Their rounding, and that of their sum for |w| ≤ 1.
     pub(super) rounding: S,
     /// The sum of the squares of the coefficients of w, w² and w³ in Δ(v+w).
     pub(super) speeds_sq: S,
@@ -252,7 +252,7 @@ impl<S: Scalar> Pencil<S> {
         let b4 = d1.dot(d3).twice() + &d2.norm_sq();
         let b5 = d2.dot(d3).twice();
         let speeds_sq = d1.norm_sq() + &d2.norm_sq() + &d3.norm_sq();
-        let size = a2.clone().abs() + &((at.b.clone() + &speeds_sq) * beta);
+        let size = a2.clone().abs() + &a3.clone().abs() + &((at.b.clone() + &speeds_sq) * beta);
         Beyond {
             coefficients: [a2 - &(b2 * beta), a3.clone() - &(b3 * beta), -(b4 * beta), -(b5 * beta)],
             rounding: size * &S::unit_roundoff().mul_pow2(6),

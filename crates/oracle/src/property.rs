@@ -192,10 +192,10 @@ pub fn check_closest(cubic: &Cubic<f64>, q: &Point<f64>, from: f64, to: f64) {
         assert!(part.distance_sq.sqrt() <= other + noise, "{}: {t} is nearer than {} on the part", say(), part.t);
     }
     // A closest point inside is stationary: one of the roots of the quintic, up to 1e-9 and what rounding its coefficients
-    // does (they carry the errors of several roundings of differences of coordinates), or of the exact quintic, which where
-    // coordinates differ by 18 orders of magnitude can have roots that the rounded one has not. Where all points from there to a root
-    // or an end are equally far up to the rounding of coordinates, as for queries so far away that a double does not hold
-    // the difference, any of them is an answer.
+    // does (they carry the errors of several roundings of differences of coordinates), or of the exact quintic: where
+    // coordinates differ by 18 orders of magnitude it can have roots that the rounded one has not. Where all points from there
+    // to a root or an end are equally far up to the rounding of coordinates, as for queries so far away that a double does not
+    // hold the difference, any of them is an answer.
     let quintic = distance_quintic(&b, q).coefficients;
     if 0.0 < found.t
         && found.t < 1.0

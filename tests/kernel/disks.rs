@@ -68,7 +68,7 @@ fn worst<S: Scalar>(drawings: u64) -> S {
 
 #[test]
 fn disks_beside_others_are_the_disks_alone() {
-    let (double, single) = (worst::<f64>(40), worst::<f32>(40));
+    let (double, single) = (worst::<f64>(200), worst::<f32>(200));
     assert!(double <= 1e-11, "{double:e}");
     assert!(single <= 1e-4, "{single:e}");
 }

@@ -24,7 +24,7 @@ use lineart::mesh::smooth::smooth;
 use lineart::mesh::{Lines, MeshError, Options, Size, mesh};
 
 /// Graded more than by default.
-const FINE: Grading = Grading { lfs_factor: 4.0, growth: 1.0 };
+const FINE: Grading = Grading { lfs_factor: Some(4.0), growth: 1.0 };
 
 /// Bounds of samples in shares of the diagonal.
 struct Sampling {

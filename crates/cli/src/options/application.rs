@@ -245,9 +245,9 @@ pub(crate) struct TriangleArgs {
     /// Small triangles at small features, at ends and at corners, growing with the distance from them
     #[arg(long)]
     pub(crate) graded: bool,
-    /// Graded: a triangle at a sample may be as large as its lfs, times this
-    #[arg(long, value_name = "A", default_value_t = Grading::default().lfs_factor, requires = "graded", allow_negative_numbers = true)]
-    pub(crate) lfs_factor: f64,
+    /// Graded: a triangle at a sample may be as large as its lfs, times this [default: 16, but no smaller than at ends of strokes]
+    #[arg(long, value_name = "A", requires = "graded", allow_negative_numbers = true)]
+    pub(crate) lfs_factor: Option<f64>,
     /// Graded: what a unit of distance from such a place adds
     #[arg(long, value_name = "B", default_value_t = Grading::default().growth, requires = "graded", allow_negative_numbers = true)]
     pub(crate) growth: f64,
@@ -267,7 +267,7 @@ impl TriangleArgs {
             let angle = self.min_angle;
             return Err(Failure::usage(format!("--min-angle is {angle}; it lies between 0 and {most} degrees")));
         }
-        above("lfs-factor", 0.0, self.lfs_factor)?;
+        self.lfs_factor.map_or(Ok(()), |factor| above("lfs-factor", 0.0, factor).map(drop))?;
         above("growth", 0.0, self.growth)?;
         self.max_edge.map_or(Ok(()), |length| above("max-edge", 0.0, length.value()).map(drop))
     }

@@ -29,19 +29,23 @@ const LEAST_PADDING: f64 = 0.03;
 /// ones gain on drawings with few ends and lose on those with many; found by experiment, as above.
 pub const GRADED_SCALE: f64 = 1.0 / 14.0;
 
+/// What lfs counts unless it is said.
+pub const LFS_FACTOR: f64 = 16.0;
+
 /// How graded sizes follow the drawing. The values by default are those at which the error of the Poisson problem is least for
 /// the number of triangles, by experiment (`fsample reproduce figure10`); smaller ones make more of the details.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grading {
-    /// What lfs counts: a triangle at a sample may be as large as its lfs, times this. 16 by default.
-    pub lfs_factor: f64,
+    /// What lfs counts: a triangle at a sample may be as large as its lfs, times this. `None`, the default, is 16 times, but no less
+    /// than the end of a stroke asks for: what is smaller costs more triangles than it repays.
+    pub lfs_factor: Option<f64>,
     /// What a unit of distance adds. 2 by default.
     pub growth: f64,
 }
 
 impl Default for Grading {
     fn default() -> Self {
-        Self { lfs_factor: 16.0, growth: 2.0 }
+        Self { lfs_factor: None, growth: 2.0 }
     }
 }
 
@@ -116,8 +120,14 @@ impl Drawn {
 
     /// The graded size, nowhere above `largest`: by lfs, by ends and corners ([`GRADED_SCALE`]), and by the distance from both.
     pub fn graded(&self, largest: f64, grading: &Grading) -> Size {
-        let mut wishes = opening::wishes(&self.points, &self.edges, largest, GRADED_SCALE * self.frame.extent().norm());
-        wishes.extend(self.wishes.iter().map(|wish| Wish { size: grading.lfs_factor * wish.size, ..*wish }));
+        let scale = GRADED_SCALE * self.frame.extent().norm();
+        let mut wishes = opening::wishes(&self.points, &self.edges, largest, scale);
+        let (factor, least) = match grading.lfs_factor {
+            Some(factor) => (factor, 0.0),
+            None => (LFS_FACTOR, opening::at_an_end(largest, scale)),
+        };
+        let by_lfs = |wish: &Wish| Wish { size: (factor * wish.size).max(least), ..*wish };
+        wishes.extend(self.wishes.iter().map(by_lfs));
         Size::Graded(Graded::new(wishes, largest, grading.growth))
     }
 

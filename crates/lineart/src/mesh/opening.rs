@@ -45,6 +45,11 @@ pub(super) fn wishes(points: &[Point<f64>], edges: &[[u32; 2]], largest: f64, sc
     out
 }
 
+/// What the end of a stroke asks for: d²/c, or d where that is no smaller; nothing where there is no largest size.
+pub(super) fn at_an_end(largest: f64, scale: f64) -> f64 {
+    if largest.is_finite() { largest * (largest / scale).min(1.0) } else { 0.0 }
+}
+
 /// The largest angle between neighbouring directions, of a full turn for one.
 fn widest_opening(directions: &mut [f64]) -> f64 {
     directions.sort_by(f64::total_cmp);
@@ -68,6 +73,9 @@ mod tests {
         for (found, expected) in sizes.iter().zip(expected) {
             assert!(found.0 == expected.0 && (found.1 - expected.1).abs() < 1e-12, "{sizes:?}");
         }
+        assert_eq!(at_an_end(1.0, 4.0), found[0].size, "the same rule");
+        assert_eq!(at_an_end(5.0, 4.0), 5.0, "no smaller than the scale");
+        assert_eq!(at_an_end(f64::INFINITY, 4.0), 0.0, "no largest size");
         assert!(wishes(&points, &edges, 4.0, 4.0).is_empty(), "no smaller than the scale");
         assert!(wishes(&points, &edges, f64::INFINITY, 4.0).is_empty(), "no largest size");
     }

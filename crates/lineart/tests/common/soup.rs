@@ -31,7 +31,7 @@ pub(crate) fn soup(kind: usize, seed: u64) -> (Drawn, Options) {
     let size = match seed % 3 {
         0 => Size::Unbounded,
         1 => Size::Uniform(length),
-        _ => drawn.graded(2.0 * length, &Grading { lfs_factor: 4.0, growth: 1.0 }),
+        _ => drawn.graded(2.0 * length, &Grading { lfs_factor: Some(4.0), growth: 1.0 }),
     };
     (drawn, Options { size, ..Options::default() })
 }

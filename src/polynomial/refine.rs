@@ -64,10 +64,6 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         if !(lower <= next && next <= upper && (is_finest || step.clone().twice() <= previous)) {
             break;
         }
-        // a product that underflowed is no step
-        if step.is_zero() && !value.is_zero() {
-            break;
-        }
         let curving = (step.clone() / &previous).square() * &step;
         x = next;
         if is_precise {
@@ -76,7 +72,7 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             let scale = slope.clone().abs() * &size;
             let unsure = wobble::<S, N>() * &magnitude * &step;
             if is_finest || curving * &scale + &unsure < scale * &size * &resolution {
-                found = Some((x.clone(), slope, magnitude));
+                found = keeps_digits(&slope, &size).then(|| (x.clone(), slope, magnitude));
                 break;
             }
             previous = step;
@@ -118,16 +114,20 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
 }
 
 /// What plain values leave of a step of Halley's that led to x is an eighth of this width at most: 2Nu·Σ|aⱼ||x|ʲ/|p'| from the
-/// value and, with a step below |x|/N, no more from the slope. Products that lose digits at the lower end of the scalar's
-/// range would leave more.
+/// value and, with a step below |x|/N, no more from the slope.
 #[inline]
 fn is_good_for<S: Scalar, const N: usize>(p: &Polynomial<S, N>, width: &S, x: &S, slope: &S, step: &S) -> bool {
     let n = S::int(i32::try_from(N).unwrap_or(i32::MAX));
     let size = x.clone().abs();
-    let product = slope.clone().square() * &size;
-    let is_in_range = !product.mul_pow2(-(2 * S::BITS).cast_signed()).is_zero();
     let noise = p.magnitude(x) * &(n.clone() * &S::unit_roundoff()).mul_pow2(5);
-    is_in_range && n * step <= size && noise <= slope.clone().abs() * width
+    keeps_digits(slope, &size) && n * step <= size && noise <= slope.clone().abs() * width
+}
+
+/// The products in a last step of Halley's, p·p' and p'², lose no digits that matter at the lower end of the scalar's range.
+#[inline]
+fn keeps_digits<S: Scalar>(slope: &S, size: &S) -> bool {
+    let product = slope.clone().square() * size;
+    !product.mul_pow2(-(2 * S::BITS).cast_signed()).is_zero()
 }
 
 /// 2N²u: times the magnitude, divided by |x|, what p'(x) may be off by.

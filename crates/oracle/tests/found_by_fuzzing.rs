@@ -145,3 +145,10 @@ fn a_stationary_point_that_the_rounded_quintic_does_not_know() {
     );
     check_closest(&cubic, &p(2.3283064365386963e-10, 2.3283064365386963e-10), 0.0, 1.0);
 }
+
+/// Value times slope is 1e-312 near the root, with few digits left: the last step was taken for a small one.
+#[test]
+fn a_step_whose_products_lose_their_digits_is_not_the_last() {
+    let c = [6.397087345733778e-308, 1.130692526381147e-309, 8.889744242069257e-280, 3.109891882916974e-120];
+    check_roots(&c, -1.0, 1.0);
+}

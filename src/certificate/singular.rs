@@ -18,7 +18,7 @@ use super::{BoundedFoot, Claim, Extent, Neighbourhood, Step};
 use crate::buffer::{BufferFull, Store};
 use crate::curve::contact::Contact;
 use crate::curve::{CurveParam, JointKind};
-use crate::geometry::Point;
+use crate::geometry::{Point, Vector};
 use crate::medial::cell::{FootSpan, slop};
 use crate::medial::clear::{Scene, osculates, reaches};
 use crate::medial::disk::tangent_disk;
@@ -32,26 +32,39 @@ const FEET: i32 = 8;
 /// hundredth of it.
 const AROUND: i32 = 24;
 
-/// An upper bound of the radius at a foot, and why. Not looked for where the plain radius is `limit` or more: then the bound is infinite.
-fn reach<S: Directed>(scene: &Scene<'_, S>, at: &CurveParam<S>, side: Side, limit: &S) -> (S, Option<CurveParam<S>>) {
-    let none = (S::infinity(), None);
-    let Some(foot) = Foot::normal(scene.curve, at.clone(), side) else { return none };
+/// A foot with an upper bound of its radius.
+struct Reach<S> {
+    foot: BoundedFoot<S>,
+    point: Point<S>,
+    direction: Vector<S>,
+    radius: S,
+}
+
+/// An upper bound of the radius at a foot, and why; `None` where the plain radius is `limit` or more.
+fn reach<S: Directed>(scene: &Scene<'_, S>, at: CurveParam<S>, side: Side, limit: &S) -> Option<Reach<S>> {
+    let foot = Foot::normal(scene.curve, at, side)?;
     let disk = tangent_disk(scene.curve, &foot);
     if disk.radius >= *limit {
-        return none;
+        return None;
     }
+    let Foot { at, side, point, direction, .. } = foot;
     let CurveParam { segment, t } = at.clone();
     let span = [t.clone(), t];
-    let Some(feet) = (FootSpan::Normal { segment, span, side }).feet(scene) else { return none };
-    let bent = (osculates(scene, &feet), None);
-    let Some(touch) = disk.touch else { return bent };
-    let reached = reaches(scene, &feet, touch.at.segment, &touch.at.t);
-    if reached < bent.0 { (reached, Some(touch.at)) } else { bent }
+    let feet = (FootSpan::Normal { segment, span, side }).feet(scene)?;
+    let mut radius = osculates(scene, &feet);
+    let mut witness = None;
+    if let Some(touch) = disk.touch {
+        let reached = reaches(scene, &feet, touch.at.segment, &touch.at.t);
+        if reached < radius {
+            (radius, witness) = (reached, Some(touch.at));
+        }
+    }
+    Some(Reach { foot: BoundedFoot { at, side, witness }, point, direction, radius })
 }
 
 /// A point of C where lfs is nearly 0.
-#[derive(Clone, Debug)]
 struct Place<S> {
+    /// On the segment that was asked about, a twin or not: a neighbourhood holds its place.
     foot: BoundedFoot<S>,
     point: Point<S>,
     /// lfs is at most this.
@@ -60,7 +73,6 @@ struct Place<S> {
 
 /// A place beside a parameter of a segment, with lfs at most `limit`.
 fn place<S: Directed>(scene: &Scene<'_, S>, segment: u32, t: &S, limit: &S) -> Option<Place<S>> {
-    let curve = scene.curve.segment(segment)?;
     for k in 4..24 {
         let offset = S::one().mul_pow2(-2 * k);
         for beside in [t.clone() + &offset, t.clone() - &offset] {
@@ -69,9 +81,10 @@ fn place<S: Directed>(scene: &Scene<'_, S>, segment: u32, t: &S, limit: &S) -> O
             }
             let at = CurveParam { segment, t: beside };
             for side in [Side::Left, Side::Right] {
-                let (lfs, witness) = reach(scene, &at, side, &limit.clone().twice());
-                if lfs <= *limit {
-                    let point = curve.point(&at.t);
+                if let Some(reach) = reach(scene, at.clone(), side, &limit.clone().twice())
+                    && reach.radius <= *limit
+                {
+                    let Reach { foot: BoundedFoot { witness, .. }, point, radius: lfs, .. } = reach;
                     return Some(Place { foot: BoundedFoot { at, side, witness }, point, lfs });
                 }
             }
@@ -82,7 +95,7 @@ fn place<S: Directed>(scene: &Scene<'_, S>, segment: u32, t: &S, limit: &S) -> O
 
 /// Finds all singular places and the stretches around them.
 ///
-/// `contacts` are those of the whole curve. Extents come sorted by segment. Nothing is done where the claim has a floor of its
+/// `contacts` are those of the whole curve, sorted by segment. Extents come sorted by segment. Nothing is done where the claim has a floor of its
 /// own, which holds everywhere.
 ///
 /// # Errors
@@ -118,6 +131,14 @@ pub fn neighbourhoods<S: Directed>(
     }
     for contact in contacts {
         march.around(contact.segment, &contact.middle(), &limit)?;
+    }
+    // Contacts are those of obstacles: a stroke that repeats one has them as well.
+    for (segment, index) in curve.segments.iter().zip(0_u32..) {
+        let Some(twin) = segment.twin else { continue };
+        let first = contacts.partition_point(|c| c.segment < twin.segment());
+        for contact in contacts.get(first..).unwrap_or_default().iter().take_while(|c| c.segment == twin.segment()) {
+            march.around(index, &twin.place(contact.middle()).t, &limit)?;
+        }
     }
     extents.items_mut().sort_unstable_by(|a, b| {
         a.segment.cmp(&b.segment).then(a.span[0].partial_cmp(&b.span[0]).unwrap_or(core::cmp::Ordering::Equal))
@@ -207,18 +228,18 @@ where
         let around = (1..=AROUND).flat_map(|k| [-k, k]).map(|k| apart.clone() * &S::ratio(2 * k, AROUND) + &t);
         for t in towards_place.chain(around.filter(|t| *t >= S::zero() && *t <= S::one())) {
             let at = CurveParam { segment, t };
-            let foot = s.point(&at.t);
             for side in [Side::Left, Side::Right] {
-                let (radius, witness) = reach(self.scene, &at, side, &self.below);
+                let Some(Reach { foot, point, direction, radius }) = reach(self.scene, at.clone(), side, &self.below)
+                else {
+                    continue;
+                };
                 if radius >= self.below {
                     continue;
                 }
-                let direction =
-                    if side == Side::Left { s.tangent(&at.t).left() } else { s.tangent(&at.t).left().opposite() };
                 // M meets the segment from the foot to this point.
-                let far = middle.distance(&foot.plus_scaled(&radius, &direction)).max(middle.distance(&foot));
+                let far = middle.distance(&point.plus_scaled(&radius, &direction)).max(middle.distance(&point));
                 if far + &half + &self.slop.clone().twice() < self.below {
-                    return Some((step(Some(BoundedFoot { at, side, witness })), half.twice()));
+                    return Some((step(Some(foot)), half.twice()));
                 }
             }
         }

@@ -153,6 +153,16 @@ impl Twin {
     pub const fn reversed(self) -> bool {
         (self.0.get() - 1) & 1 == 1
     }
+
+    /// A parameter, on the segment that stands for both.
+    pub(crate) fn place<S: Scalar>(self, t: S) -> CurveParam<S> {
+        CurveParam { segment: self.segment(), t: if self.reversed() { S::one() - &t } else { t } }
+    }
+
+    /// The end on the segment that stands for both.
+    pub(crate) const fn end(self, side: usize) -> EndId {
+        EndId::new(self.segment(), side ^ self.reversed() as usize)
+    }
 }
 
 /// A path of C: consecutive segments.
@@ -243,8 +253,13 @@ impl<'a, S: Scalar> Curve<'a, S> {
         self.segment(id.segment()).map(|s| s.end_point(id.side()))
     }
 
-    /// All ends that meet in the joint of this one, itself first.
+    /// All ends that meet in the joint of this one, itself first; for the end of a twin, those of the segment that stands for it.
     pub fn joint(&self, id: EndId) -> impl Iterator<Item = EndId> + 'a {
+        self.ring(obstacle_end(self.segments, id))
+    }
+
+    /// The same for an end of an obstacle. It would not come to an end for a twin's, whose `next` leads into a list without it.
+    pub(crate) fn ring(&self, id: EndId) -> impl Iterator<Item = EndId> + 'a {
         let segments = self.segments;
         joint::members(id, move |e| segments.get(e.segment() as usize).map(|s| s.end(e.side()).next))
     }
@@ -252,6 +267,14 @@ impl<'a, S: Scalar> Curve<'a, S> {
     /// The point at a place, or `None` for a segment that does not exist.
     pub fn point(&self, at: &CurveParam<S>) -> Option<Point<S>> {
         self.segment(at.segment).map(|s| s.point(&at.t))
+    }
+}
+
+/// An end; that of a twin as the same end of the segment that stands for it.
+fn obstacle_end<S>(segments: &[Segment<S>], end: EndId) -> EndId {
+    match segments.get(end.segment() as usize).and_then(|s| s.twin) {
+        Some(twin) => twin.end(end.side()),
+        None => end,
     }
 }
 

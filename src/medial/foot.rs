@@ -22,6 +22,17 @@ pub enum Side {
     Corner,
 }
 
+impl Side {
+    /// The other side of a segment.
+    const fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+            other => other,
+        }
+    }
+}
+
 impl core::fmt::Display for Side {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
@@ -33,8 +44,10 @@ impl core::fmt::Display for Side {
     }
 }
 
-/// A foot point with a direction: a tangent disk stands on f, its centre lies in direction d.
+/// A foot point with a direction: a tangent disk stands on f, its centre lies in direction d. Made by [`Foot::normal`] and
+/// [`Foot::fan`], and always on an obstacle, never on a twin.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Foot<S> {
     /// Where on C; for a fan the end that it belongs to.
     pub at: CurveParam<S>,
@@ -51,8 +64,20 @@ pub struct Foot<S> {
 }
 
 impl<S: Scalar> Foot<S> {
-    /// The foot at a place on C with the normal to the left or to the right; `None` if there is no such place.
+    /// The foot at a place on C with the normal to the left or to the right; `None` if there is no such place. On a twin it is
+    /// the same foot on the segment that stands for it: only that one is an obstacle.
     pub fn normal(curve: &Curve<'_, S>, at: CurveParam<S>, side: Side) -> Option<Self> {
+        match curve.segment(at.segment)?.twin {
+            Some(twin) => {
+                let side = if twin.reversed() { side.opposite() } else { side };
+                Self::on_obstacle(curve, twin.place(at.t), side)
+            }
+            None => Self::on_obstacle(curve, at, side),
+        }
+    }
+
+    /// [`Foot::normal`] on a segment that is no twin.
+    pub(super) fn on_obstacle(curve: &Curve<'_, S>, at: CurveParam<S>, side: Side) -> Option<Self> {
         let segment = curve.segment(at.segment)?;
         let end = if at.t <= S::zero() {
             Some(EndId::new(at.segment, 0))
@@ -67,8 +92,14 @@ impl<S: Scalar> Foot<S> {
         Some(Self { point: segment.point(&at.t), at, direction, speed, side, end })
     }
 
-    /// The foot at an end of a segment with a given unit direction.
+    /// The foot at an end of a segment with a given unit direction; on a twin as in [`Foot::normal`].
     pub fn fan(curve: &Curve<'_, S>, end: EndId, direction: Vector<S>) -> Option<Self> {
+        let twin = curve.segment(end.segment())?.twin;
+        Self::fan_of_obstacle(curve, twin.map_or(end, |twin| twin.end(end.side())), direction)
+    }
+
+    /// [`Foot::fan`] on a segment that is no twin.
+    pub(super) fn fan_of_obstacle(curve: &Curve<'_, S>, end: EndId, direction: Vector<S>) -> Option<Self> {
         let t = if end.side() == 0 { S::zero() } else { S::one() };
         let point = curve.end_point(end)?.clone();
         let at = CurveParam { segment: end.segment(), t };

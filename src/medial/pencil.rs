@@ -93,14 +93,14 @@ impl<S: Scalar> Pencil<S> {
             // A closed segment can come back to f at its other end: that is seen across the joint. Anywhere nearer the
             // divided form is the only precise one.
             let around =
-                Self::part(foot, index, t) && curve.joint(EndId::new(index, 0)).any(|e| e == EndId::new(index, 1));
+                Self::part(foot, index, t) && curve.ring(EndId::new(index, 0)).any(|e| e == EndId::new(index, 1));
             if !around {
                 return Self::own(curve, foot, segment);
             }
         }
         let near_end = foot.end.unwrap_or_else(|| EndId::new(foot.at.segment, usize::from(foot.at.t > half)));
         let candidate = |e: &EndId| e.segment() == index && (*e != near_end || foot.side == Side::Fan);
-        let mut ends = curve.joint(near_end).filter(candidate);
+        let mut ends = curve.ring(near_end).filter(candidate);
         if let Some(first) = ends.next() {
             // A segment that meets the joint with both ends is seen across the one that is nearer.
             let nearer = ends.find(|e| (e.side() == 1) == (*t > half));

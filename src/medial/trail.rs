@@ -141,13 +141,13 @@ impl<'c, S: Scalar> Trail<'c, S> {
                 return self.on_curve(at);
             }
         }
-        let foot = Foot::normal(self.curve, at, side)?;
+        let foot = Foot::on_obstacle(self.curve, at, side)?;
         Some(self.station(foot))
     }
 
     /// Looks at a direction of an end.
     pub(super) fn fan_station(&mut self, end: EndId, direction: Vector<S>) -> Option<Station<S>> {
-        let foot = Foot::fan(self.curve, end, direction)?;
+        let foot = Foot::fan_of_obstacle(self.curve, end, direction)?;
         Some(self.station(foot))
     }
 
@@ -198,13 +198,13 @@ impl<'c, S: Scalar> Trail<'c, S> {
             return Joint::Break;
         }
         if arriving.kind == JointKind::Smooth {
-            let next = curve.joint(end).nth(1);
+            let next = curve.ring(end).nth(1);
             return if next == follows { Joint::On } else { Joint::Break };
         }
         // The next branch clockwise: from the left side over ahead to the right side.
         let mut next = end;
         let mut best: Option<S> = None;
-        for e in curve.joint(end) {
+        for e in curve.ring(end) {
             let Some(branch) = curve.end(e) else { continue };
             // A branch along the same line as the arriving one is no turn at all, its own reverse a full one.
             let rank = if e == end { S::int(4) } else { clockwise_rank(&arriving.leaving, &branch.leaving) };
@@ -230,7 +230,7 @@ impl<'c, S: Scalar> Trail<'c, S> {
     fn touched(&self, end: EndId) -> bool {
         let Some(p) = self.curve.end_point(end) else { return false };
         let mut branches: ArrayVec<Locality<S>, 8> = ArrayVec::new();
-        for e in self.curve.joint(end) {
+        for e in self.curve.ring(end) {
             let t = if e.side() == 0 { S::zero() } else { S::one() };
             let Some(locality) = Locality::of(self.curve, &CurveParam { segment: e.segment(), t }) else { continue };
             if branches.try_push(locality).is_err() {

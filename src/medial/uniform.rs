@@ -259,7 +259,7 @@ impl<'c, S: Scalar> UniformWalk<'c, S> {
     ) -> Result<Stage<S>, BufferFull> {
         let t = self.grid(k);
         if (0..=self.steps).contains(&k) && if self.forwards() { t < goal.t } else { t > goal.t } {
-            if let Some(foot) = Foot::normal(self.trail.curve, self.at(t), self.side) {
+            if let Some(foot) = Foot::on_obstacle(self.trail.curve, self.at(t), self.side) {
                 let station = self.trail.station(foot);
                 self.trail.emit(&station, out)?;
             }

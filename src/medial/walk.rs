@@ -110,7 +110,7 @@ pub fn relevance<S: Scalar>(curve: &Curve<'_, S>) -> S {
         for side in [Side::Left, Side::Right] {
             for t in [S::zero(), S::one().half()] {
                 let at = CurveParam { segment: i, t };
-                if let Some(foot) = Foot::normal(curve, at, side) {
+                if let Some(foot) = Foot::on_obstacle(curve, at, side) {
                     least = least.min(tangent_disk(curve, &foot).radius);
                 }
             }
@@ -264,7 +264,7 @@ impl<S: Scalar, Out: Sink<MedialPoint<S>>> Walker<'_, '_, S, Out> {
                 if !top.clear {
                     top.clear = length <= self.floor || self.clear(arc, &at, side, &length);
                 }
-                if let Some(foot) = Foot::normal(self.trail.curve, at, side) {
+                if let Some(foot) = Foot::on_obstacle(self.trail.curve, at, side) {
                     let middle = self.trail.station(foot);
                     if (!top.clear || self.rough(&here, &middle, &top.station))
                         && !self.between_two(arc, side, [&here, &middle, &top.station])

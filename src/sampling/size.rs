@@ -219,8 +219,8 @@ impl<'r, S: Scalar, F: FeatureSize<S>, const BOUNDED: bool> Sizes<'r, S, F, BOUN
     fn singular_on(&self, k: u32, from: S, to: S) -> bool {
         let index = self.run.segment_index(k);
         let (index, from, to) = match self.run.curve.segment(index).and_then(|s| s.twin) {
-            Some(t) if t.reversed() => (t.segment(), S::one() - &to, S::one() - &from),
-            Some(t) => (t.segment(), from, to),
+            Some(twin) if twin.reversed() => (twin.segment(), twin.place(to).t, twin.place(from).t),
+            Some(twin) => (twin.segment(), from, to),
             None => (index, from, to),
         };
         let first = self.contacts.partition_point(|c| c.segment < index);

@@ -3,8 +3,9 @@
 use feature_sampling::bezier::Cubic;
 use feature_sampling::certificate::{Claim, Placed, Verdict};
 use feature_sampling::curve::door::DoorOptions;
-use feature_sampling::geometry::Point;
-use feature_sampling::medial::Resolution;
+use feature_sampling::curve::{CurveParam, EndId};
+use feature_sampling::geometry::{Point, Vector};
+use feature_sampling::medial::{Foot, Resolution, Side, tangent_disk};
 use feature_sampling::model::{CurveModel, MedialModel};
 use feature_sampling::prover::Prover;
 use feature_sampling::sampling::{Condition, SamplingOptions};
@@ -140,4 +141,64 @@ fn known_gaps_are_taken_over() {
         let end = own(segment).fold(0.0, |end, p| if p.span[0] == end { p.span[1] } else { f64::NAN });
         assert_eq!(end, 1.0, "pieces cover segment {segment}");
     }
+}
+
+/// Two arches that cross twice, the second one drawn three times: as it is, again, and backwards.
+fn repeated_arches() -> CurveModel<f64> {
+    let first = cubic([(0.0, 0.0), (2.0, 5.0), (6.0, 5.0), (8.0, 0.0)]);
+    let left = cubic([(0.0, 3.0), (1.0, 2.0), (2.5, 1.0), (4.0, 1.0)]);
+    let right = cubic([(4.0, 1.0), (5.5, 1.0), (7.0, 2.0), (8.0, 3.0)]);
+    let second = vec![left.clone(), right.clone()];
+    let backwards = vec![right.reversed(), left.reversed()];
+    model(&[(false, vec![first]), (false, second.clone()), (false, second), (false, backwards)])
+}
+
+/// Found with a mosquito whose strokes are all drawn twice: walking around the joints of a twin did not end, and crossings had
+/// floors on the first of the strokes only.
+#[test]
+fn strokes_that_are_drawn_again_are_proved_as_well() {
+    let model = repeated_arches();
+    let samples = sampled(&model, 0.495);
+    assert_eq!(verdict(&model, &samples, 0.5), Verdict::Proved);
+    // The others' samples serve a stroke that lies on them, but that is not looked for; where all are gone it is a fault.
+    let on_one = |s: &Placed<f64>| s.path != 1 || (s.point.x - 2.5).abs() > 0.5;
+    let on_all = |s: &Placed<f64>| s.path == 0 || (s.point.x - 2.5).abs() > 0.5;
+    let without = |keep: &dyn Fn(&Placed<f64>) -> bool| samples.iter().filter(|s| keep(s)).cloned().collect::<Vec<_>>();
+    assert_eq!(verdict(&model, &without(&on_one), 0.5), Verdict::Unknown);
+    assert!(matches!(verdict(&model, &without(&on_all), 0.5), Verdict::Refuted(_)));
+}
+
+#[test]
+fn a_foot_on_a_repeated_stroke_is_that_of_the_first() {
+    let model = repeated_arches();
+    let curve = model.curve();
+    for (again, t, first, same) in [(3, 0.25, 1, 0.25), (4, 1.0, 2, 1.0), (5, 0.25, 2, 0.75), (6, 1.0, 1, 0.0)] {
+        assert!(curve.segments[again as usize].twin.is_some(), "segment {again} is a repetition");
+        for side in [Side::Left, Side::Right] {
+            let place = |segment, t| CurveParam { segment, t };
+            let foot = Foot::normal(&curve, place(again, t), side).expect("a place");
+            let known =
+                [Side::Left, Side::Right].map(|side| Foot::normal(&curve, place(first, same), side).expect("a place"));
+            let twin = known.iter().find(|k| k.side == foot.side).expect("one of the two");
+            assert_eq!((&foot.at, &foot.point, &foot.direction), (&twin.at, &twin.point, &twin.direction), "{again}");
+            assert_eq!(tangent_disk(&curve, &foot), tangent_disk(&curve, twin), "segment {again} at {t}");
+            // The normal is that of the repeated stroke, whichever way it runs.
+            let own = curve.segments[again as usize].tangent(&t).left();
+            let along = own.dot(&foot.direction);
+            assert!(
+                (along - if side == Side::Left { 1.0 } else { -1.0 }).abs() < 1e-15,
+                "segment {again} at {t}: {along}"
+            );
+        }
+    }
+    let fan = Foot::fan(&curve, EndId::new(6, 1), Vector::new(-1.0, 0.0)).expect("an end");
+    assert_eq!(
+        (fan.end, tangent_disk(&curve, &fan).touch),
+        (Some(EndId::new(1, 0)), None),
+        "left of all strokes"
+    );
+    let ends = |id| curve.joint(id).count();
+    assert_eq!(ends(EndId::new(3, 1)), 2, "the joint between both cubics");
+    assert_eq!(ends(EndId::new(5, 1)), 2, "the same, seen from a stroke that runs backwards");
+    assert_eq!(ends(EndId::new(6, 1)), 1, "an open end");
 }

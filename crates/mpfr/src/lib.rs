@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`number`] | the number |
 //! | [`directed`] | outward rounding, for intervals of these numbers |
+//! | [`enclosures`] | proved bounds of lfs in `f64` beside those in 128 bits |
 //! | [`ladder`] | precisions chosen at run time |
 //! | [`predicate`] | exact orientation and in-circle for these numbers |
 //! | [`truth`] | the table of allowed errors, one entry for each public function of the kernel |
@@ -23,6 +24,7 @@
 //! Numbers of this kind are on the heap: an operation takes about a hundred times as long as in `f64`.
 
 pub mod directed;
+pub mod enclosures;
 pub mod ladder;
 pub mod number;
 pub mod predicate;

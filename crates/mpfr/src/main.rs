@@ -1,6 +1,6 @@
 //! The kernel in arbitrary precision, from the command line. `fsample-mpfr` without arguments says what it does.
 //!
-//! Exit codes as those of `fsample`: 0 done, 2 usage, 3 bad input, 4 output could not be written.
+//! Exit codes as those of `fsample`: 0 done, 1 bounds that do not agree, 2 usage, 3 bad input, 4 output could not be written.
 
 mod page;
 
@@ -14,6 +14,7 @@ use std::time::Instant;
 use feature_sampling::curve::{CurveParam, nearest};
 use feature_sampling::geometry::Point;
 use feature_sampling::scalar::Scalar;
+use feature_sampling_mpfr::enclosures::{self, Compared, Question};
 use feature_sampling_mpfr::ladder::{self, AtPrecision, RUNGS};
 use fsample_oracle::feature_size::{Oracle, Stroke};
 use lineart::text_in;
@@ -28,10 +29,13 @@ The kernel of fsample in arbitrary precision (MPFR).
       point of the medial axis: never below the true value but for rounding.
   fsample-mpfr ladder DRAWING [--along N]
       the same at every precision from 64 to 1024 bits: how far each is from the highest.
+  fsample-mpfr enclosures DRAWING [--points N] [--width W]
+      proved bounds of lfs in f64 and in 128 bits, at N random points (default 10), W of the upper bound apart (default 0.05),
+      and what the judge of `lfs` finds: a table, then how many do not agree. Exit code 1 if any.
   fsample-mpfr accuracy
       docs/accuracy.md; FSAMPLE_DATA names a folder with drawings/ and truth/.
 
-Options: --tolerance T of the coarse polylines (default 1e-4), --corner-angle DEG below which joints are smooth (default 1).
+Options: --tolerance T of the coarse polylines (default 1e-4; 0.01 for enclosures), --corner-angle DEG below which joints are smooth (default 1).
 ";
 
 /// Why nothing came of it, and the exit code.
@@ -57,17 +61,29 @@ struct Options {
     bits: u32,
     tolerance: f64,
     corner_angle: f64,
+    points: u32,
+    width: f64,
+}
+
+/// The commands that take a drawing.
+#[derive(Clone, Copy, PartialEq)]
+enum Command {
+    Lfs,
+    Ladder,
+    Enclosures,
 }
 
 impl Options {
     /// The defaults.
-    fn of(drawing: PathBuf) -> Self {
-        Self { drawing, at: None, along: 4, bits: 128, tolerance: 1e-4, corner_angle: 1.0 }
+    fn of(command: Command) -> Self {
+        let tolerance = if command == Command::Enclosures { 0.01 } else { 1e-4 };
+        let (corner_angle, drawing) = (1.0, PathBuf::new());
+        Self { drawing, at: None, along: 4, bits: 128, tolerance, corner_angle, points: 10, width: 0.05 }
     }
 
-    fn parse(arguments: &[String], ladder: bool) -> Result<Self, Failure> {
-        let (mut drawing, mut at, mut along) = (None, None, None);
-        let Self { mut bits, mut tolerance, mut corner_angle, along: usual, .. } = Self::of(PathBuf::new());
+    fn parse(arguments: &[String], command: Command) -> Result<Self, Failure> {
+        let (mut drawing, mut along) = (None, None);
+        let mut options = Self::of(command);
         let mut rest = arguments.iter();
         while let Some(argument) = rest.next() {
             let mut value = || rest.next().ok_or_else(|| Failure::usage(format!("{argument} needs a value")));
@@ -78,21 +94,24 @@ impl Options {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in the range just checked")]
             let whole = |text: &String, high: f64| number(text, 1.0, high).map(|v| v as u32);
             match argument.as_str() {
-                "--at" if !ladder => at = Some(PathBuf::from(value()?)),
-                "--along" => along = Some(whole(value()?, 1e6)?),
-                "--bits" if !ladder => bits = whole(value()?, 1024.0)?,
-                "--tolerance" => tolerance = number(value()?, 1e-9, 0.1)?,
-                "--corner-angle" => corner_angle = number(value()?, 0.0, 180.0)?,
+                "--at" if command == Command::Lfs => options.at = Some(PathBuf::from(value()?)),
+                "--along" if command != Command::Enclosures => along = Some(whole(value()?, 1e6)?),
+                "--bits" if command == Command::Lfs => options.bits = whole(value()?, 1024.0)?,
+                "--points" if command == Command::Enclosures => options.points = whole(value()?, 1e6)?,
+                "--width" if command == Command::Enclosures => options.width = number(value()?, 1e-6, 0.5)?,
+                "--tolerance" => options.tolerance = number(value()?, 1e-9, 0.1)?,
+                "--corner-angle" => options.corner_angle = number(value()?, 0.0, 180.0)?,
                 option if option.starts_with("--") => return Err(Failure::usage(format!("unknown option {option}"))),
                 file if drawing.is_none() => drawing = Some(PathBuf::from(file)),
                 more => return Err(Failure::usage(format!("one drawing at a time, not {more} as well"))),
             }
         }
-        if at.is_some() && along.is_some() {
+        if options.at.is_some() && along.is_some() {
             return Err(Failure::usage("--at and --along exclude each other"));
         }
-        let drawing = drawing.ok_or_else(|| Failure::usage("which drawing?"))?;
-        Ok(Self { drawing, at, along: along.unwrap_or(usual), bits, tolerance, corner_angle })
+        options.drawing = drawing.ok_or_else(|| Failure::usage("which drawing?"))?;
+        options.along = along.unwrap_or(options.along);
+        Ok(options)
     }
 }
 
@@ -223,6 +242,22 @@ fn ladder(options: &Options) -> Result<String, Failure> {
     Ok(out)
 }
 
+/// The table, and whether all rows agree.
+fn compared(options: &Options) -> Result<(String, bool), Failure> {
+    let strokes = read(&options.drawing)?;
+    let Options { corner_angle: corner_degrees, tolerance, width: share, points, .. } = *options;
+    let question = Question { corner_degrees, tolerance, share, points, seed: 1 };
+    let rows = enclosures::compare(&strokes, &question).map_err(|error| Failure::input(&options.drawing, error))?;
+    let mut out = String::from("x,y,lower,upper,lower_128,upper_128,judge,agrees\n");
+    for row in &rows {
+        let Compared { at, plain: [a, b], wide: [c, d], judge } = row;
+        out.push_str(&format!("{},{},{a},{b},{c},{d},{judge},{}\n", at.x, at.y, row.agrees()));
+    }
+    let apart = rows.iter().filter(|row| !row.agrees()).count();
+    eprintln!("{}: {} points, {apart} do not agree", options.drawing.display(), rows.len());
+    Ok((out, apart == 0))
+}
+
 fn read(file: &Path) -> Result<Vec<Stroke>, Failure> {
     let drawing = lineart::drawing::load(file).map_err(|error| Failure::input(file, error))?;
     if drawing.paths.is_empty() {
@@ -250,24 +285,30 @@ fn read_points(file: &Path) -> Result<Vec<Point<f64>>, Failure> {
     Ok(points)
 }
 
-fn run(arguments: &[String]) -> Result<String, Failure> {
+/// What is to be printed, and the exit code.
+fn run(arguments: &[String]) -> Result<(String, ExitCode), Failure> {
+    let done = |text: String| (text, ExitCode::SUCCESS);
     match arguments.split_first() {
-        None => Ok(HELP.to_owned()),
-        Some((first, _)) if matches!(first.as_str(), "help" | "--help" | "-h") => Ok(HELP.to_owned()),
-        Some((first, rest)) if first == "lfs" => lfs(&Options::parse(rest, false)?),
-        Some((first, rest)) if first == "ladder" => ladder(&Options::parse(rest, true)?),
-        Some((first, [])) if first == "accuracy" => {
-            page::accuracy().map_err(|error: Box<dyn Error>| Failure(3, error.to_string()))
+        None => Ok(done(HELP.to_owned())),
+        Some((first, _)) if matches!(first.as_str(), "help" | "--help" | "-h") => Ok(done(HELP.to_owned())),
+        Some((first, rest)) if first == "lfs" => lfs(&Options::parse(rest, Command::Lfs)?).map(done),
+        Some((first, rest)) if first == "ladder" => ladder(&Options::parse(rest, Command::Ladder)?).map(done),
+        Some((first, rest)) if first == "enclosures" => {
+            let (text, agree) = compared(&Options::parse(rest, Command::Enclosures)?)?;
+            Ok((text, ExitCode::from(u8::from(!agree))))
         }
-        Some((first, _)) => Err(Failure::usage(format!("{first}: lfs, ladder or accuracy"))),
+        Some((first, [])) if first == "accuracy" => {
+            page::accuracy().map(done).map_err(|error: Box<dyn Error>| Failure(3, error.to_string()))
+        }
+        Some((first, _)) => Err(Failure::usage(format!("{first}: lfs, ladder, enclosures or accuracy"))),
     }
 }
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match run(&arguments) {
-        Ok(text) => match io::stdout().lock().write_all(text.as_bytes()) {
-            Ok(()) => ExitCode::SUCCESS,
+        Ok((text, code)) => match io::stdout().lock().write_all(text.as_bytes()) {
+            Ok(()) => code,
             // The reader of a pipe left early.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             Err(error) => {

@@ -78,6 +78,22 @@ fn places_along_the_drawing_and_the_ladder() {
 }
 
 #[test]
+fn proved_bounds_in_both_arithmetics() {
+    let drawing = put("two-lines.csv", "0,0,0,0,1,0,2,0,3,0\n1,0,0,1,1,1,2,1,3,1\n");
+    let table = ok(&["enclosures", &drawing, "--points", "4", "--width", "0.01"]);
+    assert_eq!(table.lines().next(), Some("x,y,lower,upper,lower_128,upper_128,judge,agrees"), "{table}");
+    assert_eq!(table.lines().count(), 5, "{table}");
+    for row in 0..4 {
+        let [lower, upper, wide_lower, wide_upper] =
+            [2, 3, 4, 5].map(|i| column(&table, row, i).parse::<f64>().expect("a number"));
+        for [lower, upper] in [[lower, upper], [wide_lower, wide_upper]] {
+            assert!(0.495 <= lower && lower <= 0.5 && 0.5 <= upper && upper <= 0.506, "between two lines: {table}");
+        }
+        assert_eq!(column(&table, row, 7), "true", "{table}");
+    }
+}
+
+#[test]
 fn what_cannot_be_done() {
     let drawing = put("bad-lines.csv", END_ABOVE_A_LINE);
     let bad = put("bad.txt", "0 0\n1 2 3\n");
@@ -97,5 +113,8 @@ fn what_cannot_be_done() {
     fails(&["lfs", &drawing, "--at", "no-such.txt"], 3, "no-such.txt");
     fails(&["lfs", &drawing, "--at", &bad], 3, "line 2");
     fails(&["ladder", &drawing, "--bits", "64"], 2, "--bits");
+    fails(&["lfs", &drawing, "--width", "0.1"], 2, "--width");
+    fails(&["enclosures", &drawing, "--along", "4"], 2, "--along");
+    fails(&["enclosures", &drawing, "--width", "1"], 2, "0.5");
     assert!(ok(&[]).contains("ladder DRAWING"), "without arguments it says how");
 }

@@ -6,7 +6,7 @@
 use super::{Door, index_of};
 use crate::buffer::Store;
 use crate::curve::joint;
-use crate::curve::{EndId, JointEnd, JointKind, Path, Segment};
+use crate::curve::{EndId, JointEnd, JointKind, Path, Segment, obstacle_end};
 use crate::geometry::{Point, Vector};
 use crate::order::sort;
 use crate::scalar::Scalar;
@@ -143,14 +143,6 @@ impl<S: Scalar> Door<'_, S> {
                 s.ends = ends;
             }
         }
-    }
-}
-
-/// The segment that stands for a twin, and the end of it.
-fn obstacle_end<S>(segments: &[Segment<S>], e: EndId) -> EndId {
-    match segments.get(e.segment() as usize).and_then(|s| s.twin) {
-        Some(t) => EndId::new(t.segment(), if t.reversed() { 1 - e.side() } else { e.side() }),
-        None => e,
     }
 }
 

@@ -180,6 +180,7 @@ where
         let mut pending: ArrayVec<Task<S>, DEPTH> = ArrayVec::new();
         self.full = self.band.len().saturating_add(self.claim.gap_cells);
         self.cells.shorten(0);
+        let mut given_up = false;
         pending.push(Task { span, open: [0, 0], fresh: true });
         while let Some(task) = pending.pop() {
             self.cells.shorten(task.open[1]);
@@ -194,6 +195,10 @@ where
             let need = shape.distance.clone() / &self.claim.epsilon * &strict;
             if let Some(reason) = self.floored(segment, &task.span, &shape) {
                 self.add(segment, task.span, shape.sample, reason)?;
+                continue;
+            }
+            if given_up {
+                self.add(segment, task.span, shape.sample, Reason::Fine)?;
                 continue;
             }
             let limited = self.discharge_all(&task, &shape, &need)?;
@@ -225,6 +230,7 @@ where
                 if self.verdict == Verdict::Proved {
                     self.verdict = Verdict::Unknown;
                 }
+                given_up = self.claim.give_up;
                 self.add(segment, task.span, shape.sample, reason)?;
                 if self.done() {
                     return Ok(());

@@ -52,6 +52,9 @@ pub struct Claim<S> {
     pub work: u64,
     /// A piece smaller than this share of the lfs that it needs is left unknown (2^−10).
     pub finest: S,
+    /// As soon as one piece of a gap between samples is left unknown, so is all of the gap behind it: for those who add a sample then,
+    /// and do not want to know more (no).
+    pub give_up: bool,
 }
 
 impl<S: Scalar> Claim<S> {
@@ -66,6 +69,7 @@ impl<S: Scalar> Claim<S> {
             gap_cells: 10_000,
             work: 1_000_000_000,
             finest: S::one().mul_pow2(-10),
+            give_up: false,
         }
     }
 }

@@ -6,7 +6,7 @@ use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::curve::{CurveParam, EndId};
 use feature_sampling::geometry::{Point, Vector};
 use feature_sampling::medial::{Foot, Resolution, Side, tangent_disk};
-use feature_sampling::model::{CurveModel, MedialModel};
+use feature_sampling::model::{CurveModel, Judgement, MedialModel};
 use feature_sampling::prover::Prover;
 use feature_sampling::sampling::{Condition, SamplingOptions};
 
@@ -192,13 +192,38 @@ fn a_foot_on_a_repeated_stroke_is_that_of_the_first() {
         }
     }
     let fan = Foot::fan(&curve, EndId::new(6, 1), Vector::new(-1.0, 0.0)).expect("an end");
-    assert_eq!(
-        (fan.end, tangent_disk(&curve, &fan).touch),
-        (Some(EndId::new(1, 0)), None),
-        "left of all strokes"
-    );
+    assert_eq!((fan.end, tangent_disk(&curve, &fan).touch), (Some(EndId::new(1, 0)), None), "left of all strokes");
     let ends = |id| curve.joint(id).count();
     assert_eq!(ends(EndId::new(3, 1)), 2, "the joint between both cubics");
     assert_eq!(ends(EndId::new(5, 1)), 2, "the same, seen from a stroke that runs backwards");
     assert_eq!(ends(EndId::new(6, 1)), 1, "an open end");
+}
+
+#[test]
+fn a_gap_that_is_given_up_is_left_behind_its_first_unknown_piece() {
+    let model = model(&[(true, ellipse(3.0, 1.0))]);
+    let samples = sampled(&model, 0.4999);
+    // Pieces so large that some hold and some do not.
+    let thorough = Claim { finest: 0.125, ..Claim::new(0.5) };
+    let quick = Claim { give_up: true, ..thorough.clone() };
+    let [all, first] = [thorough, quick].map(|claim| model.certify(&samples, &claim, CELLS, false));
+    assert_eq!((&all.verdict, &first.verdict), (&Verdict::Unknown, &Verdict::Unknown));
+    let left = |judgement: &Judgement<f64>| judgement.pieces.iter().filter(|p| !p.reason.proves()).count();
+    let proved = |judgement: &Judgement<f64>| judgement.pieces.len() - left(judgement);
+    assert!(
+        left(&all) > 0 && proved(&first) > 0 && proved(&first) <= proved(&all),
+        "{} of {}",
+        proved(&first),
+        proved(&all)
+    );
+    assert!(first.pieces.len() < all.pieces.len(), "it saves work");
+    // Up to the first unknown piece of a gap both say the same, and all behind it is unknown.
+    let is_start = |segment: u32, t: f64| t == 0.0 || samples.iter().any(|s| s.at == CurveParam { segment, t });
+    let mut given_up = false;
+    for piece in &first.pieces {
+        given_up &= !is_start(piece.segment, piece.span[0]);
+        assert!(!given_up || !piece.reason.proves(), "{piece:?} lies behind an unknown piece");
+        assert!(!piece.reason.proves() || all.pieces.contains(piece), "{piece:?} was proved before");
+        given_up |= !piece.reason.proves();
+    }
 }

@@ -87,7 +87,7 @@ fn proved_bounds_in_both_arithmetics() {
         let [lower, upper, wide_lower, wide_upper] =
             [2, 3, 4, 5].map(|i| column(&table, row, i).parse::<f64>().expect("a number"));
         for [lower, upper] in [[lower, upper], [wide_lower, wide_upper]] {
-            assert!(0.495 <= lower && lower <= 0.5 && 0.5 <= upper && upper <= 0.506, "between two lines: {table}");
+            assert!((0.495..=0.5).contains(&lower) && (0.5..=0.506).contains(&upper), "between two lines: {table}");
         }
         assert_eq!(column(&table, row, 7), "true", "{table}");
     }

@@ -194,7 +194,7 @@ impl Engine<'_> {
         epsilon: f64,
         effort: Effort,
     ) -> Result<(Vec<PathRows<SampleRow>>, Judged), Failure> {
-        let claim = Claim { min_distance: bounds.min_distance, ..Claim::new(epsilon) };
+        let mut claim = Claim { min_distance: bounds.min_distance, give_up: true, ..Claim::new(epsilon) };
         let bounds = Bounds { density: Density::Epsilon(epsilon), ..*bounds };
         let mut samples = self.sampled(&bounds, 1.0 - effort.slack)?;
         let cells = usize::try_from(effort.cells).unwrap_or(usize::MAX);
@@ -205,6 +205,8 @@ impl Engine<'_> {
             let mut placed = placed_of(&samples);
             in_order(&mut placed);
             renumber(&mut known, &before, &placed);
+            // The last judgement is for the user, who wants to know all of what is left.
+            claim.give_up = round < ROUNDS;
             let mut judgement = prover.judge_again(&placed, &claim, false, &known);
             round += 1;
             if judgement.verdict == Verdict::Proved || round > ROUNDS {
@@ -220,14 +222,25 @@ impl Engine<'_> {
     /// One more sample in the middle of each run of pieces that were not proved.
     fn add_samples(&self, samples: &mut [Vec<Sample<f64>>], judgement: &Judgement<f64>) {
         let curve = self.curve.curve();
-        let mut last: Option<(u32, f64)> = None;
+        let is_sample = |segment: u32, t: f64| {
+            let own = curve.segment(segment).and_then(|s| samples.get(s.path as usize));
+            own.is_some_and(|own| own.iter().any(|s| s.at == CurveParam { segment, t }))
+        };
+        let mut runs: Vec<(u32, [f64; 2])> = Vec::new();
         for piece in judgement.pieces.iter().filter(|p| !p.reason.proves()) {
-            let joins = last.is_some_and(|(segment, end)| segment == piece.segment && end >= piece.span[0]);
-            last = Some((piece.segment, piece.span[1]));
-            let at = CurveParam { segment: piece.segment, t: 0.5 * (piece.span[0] + piece.span[1]) };
-            let (false, Some(point), Some(s)) = (joins, curve.point(&at), curve.segment(piece.segment)) else {
-                continue;
-            };
+            let [from, to] = piece.span;
+            match runs.last_mut() {
+                Some((segment, run))
+                    if *segment == piece.segment && run[1] >= from && !is_sample(piece.segment, from) =>
+                {
+                    run[1] = to;
+                }
+                _ => runs.push((piece.segment, piece.span)),
+            }
+        }
+        for (segment, [from, to]) in runs {
+            let at = CurveParam { segment, t: 0.5 * (from + to) };
+            let (Some(point), Some(s)) = (curve.point(&at), curve.segment(segment)) else { continue };
             let Some(own) = samples.get_mut(s.path as usize) else { continue };
             let new = Sample { path: s.path, at, point, lfs: self.medial.lfs(&point), bound: Bound::Epsilon };
             // Behind the last one before it along the path; before all others, behind the last of all: where a closed path

@@ -15,7 +15,7 @@ use crate::errors::Failure;
 /// What may be spent on a proof.
 #[derive(Args, Debug)]
 pub(crate) struct EffortArgs {
-    /// Where samples are placed to be proved: aim this share below ε [default: 0.01]
+    /// Where samples are placed to be proved: aim this share below ε [default: 0.005]
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub(crate) slack: Option<f64>,
     /// Answer unknown where more cells of the foot set would be needed [default: 4000000]
@@ -25,7 +25,7 @@ pub(crate) struct EffortArgs {
 
 impl EffortArgs {
     pub(super) fn check(&self) -> Result<Effort, Failure> {
-        let slack = self.slack.unwrap_or(0.01);
+        let slack = self.slack.unwrap_or(0.005);
         if slack > 0.0 && slack < 1.0 {
             Ok(Effort { slack, cells: self.max_cells.unwrap_or(4_000_000) })
         } else {

@@ -148,7 +148,7 @@ fn repeated_arches() -> CurveModel<f64> {
     let first = cubic([(0.0, 0.0), (2.0, 5.0), (6.0, 5.0), (8.0, 0.0)]);
     let left = cubic([(0.0, 3.0), (1.0, 2.0), (2.5, 1.0), (4.0, 1.0)]);
     let right = cubic([(4.0, 1.0), (5.5, 1.0), (7.0, 2.0), (8.0, 3.0)]);
-    let second = vec![left.clone(), right.clone()];
+    let second = vec![left, right];
     let backwards = vec![right.reversed(), left.reversed()];
     model(&[(false, vec![first]), (false, second.clone()), (false, second), (false, backwards)])
 }

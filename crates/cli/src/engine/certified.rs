@@ -19,6 +19,9 @@ use crate::input::GivenSample;
 /// another stroke lfs falls from the singular floor to the other one, by fourteen halvings.
 const ROUNDS: usize = 24;
 
+/// No more are added once there are a tenth and these more than at first: what no sample helps would be halved for ever.
+const FEW: usize = 100;
+
 /// The effective ε is bounded to this share, if it can be.
 const EFFECTIVE: f64 = 1e-2;
 
@@ -109,6 +112,14 @@ pub(crate) struct Effort {
     pub(crate) cells: u32,
 }
 
+/// Samples placed to be proved, path by path and in order, and what the prover says of them.
+struct Repaired {
+    samples: Vec<Vec<Sample<f64>>>,
+    placed: Vec<Placed<f64>>,
+    claim: Claim<f64>,
+    judgement: Judgement<f64>,
+}
+
 fn placed_of(samples: &[Vec<Sample<f64>>]) -> Vec<Placed<f64>> {
     samples.iter().flatten().map(|s| Placed { path: s.path, at: s.at, point: s.point }).collect()
 }
@@ -162,16 +173,14 @@ impl Engine<'_> {
         Ok(self.effective_of(&placed, epsilon, min_distance, effort))
     }
 
-    /// Bounds of the effective ε of samples that are placed for an ε.
+    /// Bounds of the effective ε of samples that are placed to be proved for an ε.
     pub(crate) fn effective_of_placed(
         &self,
         epsilon: f64,
         min_distance: Option<f64>,
         effort: Effort,
     ) -> Result<EffectiveEpsilon<f64>, Failure> {
-        let bounds = Bounds::least(epsilon, min_distance);
-        let mut placed = placed_of(&self.sampled(&bounds, 1.0 - effort.slack)?);
-        in_order(&mut placed);
+        let Repaired { placed, .. } = self.repaired(&Bounds::least(epsilon, min_distance), epsilon, effort)?;
         Ok(self.effective_of(&placed, epsilon, min_distance, effort))
     }
 
@@ -194,25 +203,35 @@ impl Engine<'_> {
         epsilon: f64,
         effort: Effort,
     ) -> Result<(Vec<PathRows<SampleRow>>, Judged), Failure> {
+        let Repaired { samples, placed, claim, judgement } = self.repaired(bounds, epsilon, effort)?;
+        let bounds = Bounds { density: Density::Epsilon(epsilon), ..*bounds };
+        let judged = self.judged(&placed, &claim, &judgement);
+        Ok((self.sample_rows(samples, &bounds), judged))
+    }
+
+    /// The same, as the kernel has them.
+    fn repaired(&self, bounds: &Bounds, epsilon: f64, effort: Effort) -> Result<Repaired, Failure> {
         let mut claim = Claim { min_distance: bounds.min_distance, give_up: true, ..Claim::new(epsilon) };
         let bounds = Bounds { density: Density::Epsilon(epsilon), ..*bounds };
         let mut samples = self.sampled(&bounds, 1.0 - effort.slack)?;
         let cells = usize::try_from(effort.cells).unwrap_or(usize::MAX);
         let mut prover = Prover::new(&self.curve, cells);
-        let mut round = 0;
+        let (mut round, mut first) = (0, None);
         let (mut before, mut known) = (Vec::new(), Vec::new());
         loop {
             let mut placed = placed_of(&samples);
             in_order(&mut placed);
             renumber(&mut known, &before, &placed);
+            let count = *first.get_or_insert(placed.len());
+            let is_last =
+                round == ROUNDS || placed.len() > count + count / 10 + FEW || prover.cells().len() + 2 > cells;
             // The last judgement is for the user, who wants to know all of what is left.
-            claim.give_up = round < ROUNDS;
+            claim.give_up = !is_last;
             let mut judgement = prover.judge_again(&placed, &claim, false, &known);
             round += 1;
-            if judgement.verdict == Verdict::Proved || round > ROUNDS {
+            if judgement.verdict == Verdict::Proved || is_last {
                 judgement.cells = prover.into_cells();
-                let judged = self.judged(&placed, &claim, &judgement);
-                return Ok((self.sample_rows(samples, &bounds), judged));
+                return Ok(Repaired { samples, placed, claim, judgement });
             }
             self.add_samples(&mut samples, &judgement);
             (before, known) = (placed, judgement.pieces);

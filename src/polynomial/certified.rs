@@ -45,6 +45,17 @@ pub enum Holds {
     Unknown,
 }
 
+impl Holds {
+    /// What is known of two brackets together, each with roots of its own.
+    const fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
+            (Self::Even, Self::Even) | (Self::One | Self::Odd, Self::One | Self::Odd) => Self::Even,
+            _ => Self::Odd,
+        }
+    }
+}
+
 /// A bracket with what is proved about it; lower ≤ value ≤ upper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certified<S> {
@@ -158,11 +169,16 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     /// Roots in [lo, hi], ends may be infinite; scaled coefficients.
     fn certified_line(&self, lo: &S, hi: &S) -> CertifiedRoots<S, N> {
         let zero = S::zero();
+        // Roots at 0 are exact. The others are those of p/xᵏ, and what is proved about these must not have 0 in it.
         let (p, zeros) = self.without_zeros();
         let mut roots = CertifiedRoots::new();
         if *lo < zero {
             let end = if *hi < zero { -hi.clone() } else { zero.clone() };
-            for r in p.mirrored().certified_positive(&end, &-lo.clone()).into_iter().rev() {
+            let mirrored = p.mirrored();
+            for mut r in mirrored.certified_positive(&end, &-lo.clone()).into_iter().rev() {
+                if zeros > 0 {
+                    mirrored.leave_zero(&mut r);
+                }
                 push(&mut roots, Certified { value: -r.value, lower: -r.upper, upper: -r.lower, holds: r.holds });
             }
         }
@@ -172,14 +188,42 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
                 k if k % 2 == 1 => Holds::Odd,
                 _ => Holds::Even,
             };
-            push(&mut roots, Certified { value: zero.clone(), lower: zero.clone(), upper: zero.clone(), holds });
+            let at_zero = Certified { value: zero.clone(), lower: zero.clone(), upper: zero.clone(), holds };
+            match roots.last_mut() {
+                Some(last) if last.upper.is_zero() => last.absorb(at_zero),
+                _ => push(&mut roots, at_zero),
+            }
         }
         if *hi > zero {
-            for r in p.certified_positive(&lo.clone().max(zero), hi) {
+            for mut r in p.certified_positive(&lo.clone().max(zero), hi) {
+                if zeros > 0 {
+                    p.leave_zero(&mut r);
+                    if r.lower.is_zero()
+                        && let Some(last) = roots.last_mut()
+                    {
+                        last.absorb(r);
+                        continue;
+                    }
+                }
                 push(&mut roots, r);
             }
         }
         roots
+    }
+
+    /// Narrows a bracket of one root that begins at 0, where p(0) ≠ 0: up to a place where p has the sign of p(0) there is none.
+    fn leave_zero(&self, root: &mut Certified<S>) {
+        if !(root.lower.is_zero() && root.holds == Holds::One) {
+            return;
+        }
+        let (mut place, at_zero) = (root.value.clone(), twofold::sign(self, &S::zero()));
+        for _ in 0..ATTEMPTS {
+            place = place.mul_pow2(-1);
+            if at_zero != 0 && place > S::zero() && twofold::sign(self, &place) == at_zero {
+                root.lower = place;
+                return;
+            }
+        }
     }
 
     /// Roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.
@@ -260,6 +304,15 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
             to = upper;
         }
         Certified { value: narrow.value, lower: from, upper: to, holds: Holds::One }
+    }
+}
+
+impl<S: Scalar> Certified<S> {
+    /// Takes in the next bracket, which begins where this one ends, at 0, one of the roots.
+    fn absorb(&mut self, next: Self) {
+        self.value = S::zero();
+        self.upper = next.upper;
+        self.holds = self.holds.and(next.holds);
     }
 }
 

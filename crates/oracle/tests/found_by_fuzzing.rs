@@ -152,3 +152,28 @@ fn a_step_whose_products_lose_their_digits_is_not_the_last() {
     let c = [6.397087345733778e-308, 1.130692526381147e-309, 8.889744242069257e-280, 3.109891882916974e-120];
     check_roots(&c, -1.0, 1.0);
 }
+
+/// A certified bracket that ended at 0, where a root had been divided out: "exactly one" was said of two.
+#[test]
+fn a_certified_bracket_that_ends_at_a_root_at_0() {
+    let c = [0.0, 4.50514e-319, 6.21314252043346e-66, 6.359745635991445e-116, 6.359744766225762e-116];
+    check_roots(&c, -1.0, 1.0);
+    let (small, large) = ([2.0732734e-317, 1.935613e-317], [-1.7456713911491722e-149, -2.5637160115410706e-69]);
+    check_roots(&[0.0, 0.0, 0.0, small[0], small[1], large[0], large[1], 0.0], -1.0, 1.0);
+    check_roots(&[0.0, 0.0, 0.0, small[0], small[1], large[0], large[1], 0.0], 0.0, 1.0);
+}
+
+/// The end at t = 1 is 4e-6 farther than the closest point, where Horner's scheme is off by 1e-5: right, and the judge allowed for
+/// roundings of control points only.
+#[test]
+fn an_end_that_the_noise_of_powers_hides_a_closer_point_from() {
+    let p = Point::new;
+    let far = -466340811.7960784;
+    let cubic = Cubic::new(
+        p(6.302296242211337e-6, -466338415.43359375),
+        p(far, far),
+        p(-466340811.91717213, -466340811.67498463),
+        p(-466340811.7929828, far),
+    );
+    check_closest(&cubic, &p(far, far), 0.0, 1.0);
+}

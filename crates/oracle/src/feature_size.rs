@@ -13,7 +13,7 @@
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::door::{CurveError, DoorOptions, sine_of_degrees};
-use feature_sampling::curve::{CurveParam, EndId};
+use feature_sampling::curve::{Curve, CurveParam, EndId};
 use feature_sampling::geometry::{Point, Vector, distance_sq_to_segment};
 use feature_sampling::medial::{Foot, MedialPoint, Resolution, Side, tangent_disk};
 use feature_sampling::model::{CurveModel, MedialModel};
@@ -46,8 +46,58 @@ pub struct Found<S> {
     pub lfs: S,
     /// That point of M.
     pub medial: Option<Point<S>>,
+    /// What it is the medial point of.
+    pub origin: Option<Origin<S>>,
     /// The distance to the coarse polylines.
     pub polylines: S,
+}
+
+/// What a point of M comes from: the same in every arithmetic, though the point is not.
+#[derive(Clone, Debug)]
+pub enum Origin<S> {
+    /// A normal of the curve.
+    Normal(CurveParam<S>, Side),
+    /// A direction at an end.
+    Fan(EndId, Vector<S>),
+    /// The curve itself, at corners, crossings and cusps and along strokes that coincide.
+    Curve(CurveParam<S>),
+}
+
+impl<S: Scalar> Origin<S> {
+    /// The medial point of this on a curve; `None` if there is none within finite distance.
+    pub fn medial_point(&self, curve: &Curve<'_, S>) -> Option<Point<S>> {
+        let foot = match self {
+            Self::Curve(at) => return curve.point(at),
+            Self::Normal(at, side) => Foot::normal(curve, at.clone(), *side)?,
+            Self::Fan(end, direction) => Foot::fan(curve, *end, direction.clone())?,
+        };
+        let radius = tangent_disk(curve, &foot).radius;
+        radius.is_finite().then(|| foot.point.plus_scaled(&radius, &foot.direction))
+    }
+
+    /// Of a vertex of the polylines.
+    fn of(vertex: &MedialPoint<S>) -> Option<Self> {
+        Some(match vertex.side {
+            Side::Corner => Self::Curve(vertex.at.clone()),
+            Side::Fan => {
+                let end = EndId::new(vertex.at.segment, usize::from(vertex.at.t > S::zero()));
+                Self::Fan(end, vertex.centre.minus(&vertex.foot).unit()?)
+            }
+            side => Self::Normal(vertex.at.clone(), side),
+        })
+    }
+}
+
+impl Origin<f64> {
+    /// The same in another arithmetic; a direction is made a unit vector again.
+    pub fn widened<T: Scalar>(&self) -> Option<Origin<T>> {
+        let place = |at: &CurveParam<f64>| CurveParam { segment: at.segment, t: T::from_f64(at.t) };
+        Some(match self {
+            Self::Normal(at, side) => Origin::Normal(place(at), *side),
+            Self::Fan(end, d) => Origin::Fan(*end, Vector::new(T::from_f64(d.x), T::from_f64(d.y)).unit()?),
+            Self::Curve(at) => Origin::Curve(place(at)),
+        })
+    }
 }
 
 /// Feet between two neighbouring vertices of a polyline.
@@ -91,11 +141,11 @@ impl<S: Scalar> Oracle<S> {
     /// lfs of a point of C.
     pub fn lfs(&self, p: &Point<S>) -> Found<S> {
         let polylines = self.medial.lfs(p);
-        let mut best = Found { lfs: S::infinity(), medial: None, polylines };
+        let mut best = Found { lfs: S::infinity(), medial: None, origin: None, polylines };
         for edge in self.near(p) {
             for vertex in [edge, edge + 1] {
                 if let Some(vertex) = self.medial.points().get(vertex) {
-                    best.offer(p, vertex.centre.clone());
+                    best.offer(p, vertex.centre.clone(), || Origin::of(vertex));
                 }
             }
             if let Some(stretch) = self.stretch(edge) {
@@ -173,38 +223,38 @@ impl<S: Scalar> Oracle<S> {
         Some(Stretch::Normals { segment, side, span: [start, to.at.t.clone()] })
     }
 
-    /// The medial point of a foot of the stretch; s runs from 0 to 1.
-    fn medial_point(&self, stretch: &Stretch<S>, s: &S) -> Option<Point<S>> {
-        let curve = self.curve.curve();
-        let between = |span: &[S; 2]| (span[1].clone() - &span[0]) * s + &span[0];
-        let foot = match stretch {
-            Stretch::Curve { segment, span } => {
-                return curve.point(&CurveParam { segment: *segment, t: between(span) });
-            }
-            Stretch::Normals { segment, side, span } => {
-                Foot::normal(&curve, CurveParam { segment: *segment, t: between(span) }, *side)?
-            }
-            Stretch::Fan { end, span } => {
-                let direction = span[0].scaled(&(S::one() - s)).plus(&span[1].scaled(s)).unit()?;
-                Foot::fan(&curve, *end, direction)?
-            }
+    /// What a medial point of the stretch comes from; s runs from 0 to 1.
+    fn origin(stretch: &Stretch<S>, s: &S) -> Option<Origin<S>> {
+        let place = |segment: u32, span: &[S; 2]| {
+            let t = (span[1].clone() - &span[0]) * s + &span[0];
+            CurveParam { segment, t }
         };
-        let radius = tangent_disk(&curve, &foot).radius;
-        radius.is_finite().then(|| foot.point.plus_scaled(&radius, &foot.direction))
+        Some(match stretch {
+            Stretch::Curve { segment, span } => Origin::Curve(place(*segment, span)),
+            Stretch::Normals { segment, side, span } => Origin::Normal(place(*segment, span), *side),
+            Stretch::Fan { end, span } => {
+                Origin::Fan(*end, span[0].scaled(&(S::one() - s)).plus(&span[1].scaled(s)).unit()?)
+            }
+        })
     }
 
     /// Offers the medial points of a stretch, down to the nearest one.
     fn minimise(&self, p: &Point<S>, stretch: &Stretch<S>, best: &mut Found<S>) {
         let at = |i: i32| S::ratio(i.clamp(0, PROBES), PROBES);
+        let curve = self.curve.curve();
+        let medial = |s: &S| {
+            let origin = Self::origin(stretch, s)?;
+            Some((origin.medial_point(&curve)?, origin))
+        };
         let (mut least, mut reach) = ((0, S::infinity()), S::zero());
         let mut before: Option<Point<S>> = None;
         for i in 0..=PROBES {
-            let Some(m) = self.medial_point(stretch, &at(i)) else { continue };
+            let Some((m, origin)) = medial(&at(i)) else { continue };
             let distance = m.distance(p);
             if let Some(before) = before.replace(m.clone()) {
                 reach = reach.max(before.distance(&m));
             }
-            best.offer(p, m);
+            best.offer(p, m, || Some(origin));
             if distance < least.1 {
                 least = (i, distance);
             }
@@ -214,10 +264,10 @@ impl<S: Scalar> Oracle<S> {
         if distance - &reach > best.lfs {
             return;
         }
-        let mut value = |s: &S| match self.medial_point(stretch, s) {
-            Some(m) => {
+        let mut value = |s: &S| match medial(s) {
+            Some((m, origin)) => {
                 let distance = m.distance(p);
-                best.offer(p, m);
+                best.offer(p, m, || Some(origin));
                 distance
             }
             None => S::infinity(),
@@ -259,11 +309,12 @@ impl<S: Scalar> Stretch<S> {
 }
 
 impl<S: Scalar> Found<S> {
-    fn offer(&mut self, p: &Point<S>, medial: Point<S>) {
+    fn offer(&mut self, p: &Point<S>, medial: Point<S>, origin: impl FnOnce() -> Option<Origin<S>>) {
         let distance = medial.distance(p);
         if distance < self.lfs {
             self.lfs = distance;
             self.medial = Some(medial);
+            self.origin = origin();
         }
     }
 }

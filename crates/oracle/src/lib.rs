@@ -17,7 +17,8 @@
 //! * [`decode`]: bytes of a fuzzer read as polynomials, curves and documents;
 //! * [`property`]: what must hold for any such bytes. One function for each fuzz target; the same functions run on random
 //!   bytes and on the committed corpus in `cargo test`;
-//! * [`survey`]: counts of wrong answers over many cases.
+//! * [`survey`]: counts of wrong answers over many cases;
+//! * [`verdict`]: whether proofs and refutations of ε-samples are true, by a dense look at random curves.
 //!
 //! Nothing of the product judges itself: of the kernel only the functions under test are called (but [`feature_size`] takes
 //! tangent disks from it, for certificates that do not use these). One answer is handed on to
@@ -37,3 +38,4 @@ pub mod random;
 pub mod solve;
 pub mod sturm;
 pub mod survey;
+pub mod verdict;

@@ -151,8 +151,8 @@ fn follow(coefficients: &[f64]) {
     }
 }
 
-/// Closest point: not farther than brute force finds it, by 1e-12 of the distance, exactly evaluated (and by what Horner's
-/// scheme may be off by, which is all there is when the query lies on the curve); the answer is where it says; the
+/// Closest point: not farther than brute force finds it, by 1e-12 of the distance, exactly evaluated (and by a few roundings
+/// of the coordinates and of Horner's scheme, which is all there is when the query lies on the curve); the answer is where it says; the
 /// part of a cubic answers for the part; a closest point inside is among the roots of the quintic.
 ///
 /// # Panics
@@ -176,7 +176,9 @@ pub fn check_closest(cubic: &Cubic<f64>, q: &Point<f64>, from: f64, to: f64) {
     assert_eq!(found.point, b.eval(&found.t), "{}: B(t)", say());
     let (least, brute_t) = brute(&b, q);
     let exact = Closest::new(&b, q).unwrap_or_else(|| panic!("{}: not finite", say()));
-    let noise = |t: f64| horner_noise(&b, q, t);
+    let size = cubic.points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(q.x.abs().max(q.y.abs()), f64::max);
+    // Rounding coordinates moves a point by the first, whatever the solver, and Horner's scheme by the second.
+    let noise = |t: f64| f64::max(8.0 * f64::EPSILON * size, horner_noise(&b, q, t));
     let agree = (found.distance_sq.sqrt() - least.sqrt()).abs() <= 1e-13 * least.sqrt();
     if !agree && exact.excess(found.t) > 1e-12 {
         let absolute = exact.excess_absolute(found.t);

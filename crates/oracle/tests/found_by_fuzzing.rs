@@ -177,3 +177,18 @@ fn an_end_that_the_noise_of_powers_hides_a_closer_point_from() {
     );
     check_closest(&cubic, &p(far, far), 0.0, 1.0);
 }
+
+/// A parameter of 3e-17 that is off by 8e-20, where the curve runs 1e9 of those a unit: right, while the judge allowed for Horner's
+/// scheme alone.
+#[test]
+fn a_foot_beside_the_start_of_a_long_cubic() {
+    let p = Point::new;
+    let unit = 2.3283064365386963e-10;
+    let cubic = Cubic::new(
+        p(-4.2726234639313225e-7, -2.3800348106258453e-10),
+        p(4117061640.052284, 2.328306436572577e-10),
+        p(unit, unit),
+        p(unit, unit),
+    );
+    check_closest(&cubic, &p(unit, unit), 0.0, 1.0);
+}

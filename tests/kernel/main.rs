@@ -15,7 +15,6 @@ mod interval;
 mod lfs_shapes;
 mod lfs_table;
 mod nearest;
-mod no_false_proof;
 mod polynomial;
 mod predicates;
 mod properties;

@@ -7,7 +7,7 @@
 
 use super::bernstein::{Given, Piece};
 use super::refine::search;
-use super::{Polynomial, ends};
+use super::{Polynomial, ends, twofold};
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 use core::array::from_fn;
@@ -316,7 +316,9 @@ fn joined<S: Scalar, const N: usize>(p: &Polynomial<S, N>, left: &Root<S>, right
     let (lower, upper) = (left.lower.clone(), right.upper.clone());
     let size = |x: &S| p.eval(x).abs();
     let simple = left.kind == RootKind::Simple && right.kind == RootKind::Simple;
-    let crosses = (p.eval(&lower) > S::zero()) != (p.eval(&upper) > S::zero());
+    // Beside a cluster plain values are noise.
+    let is_above = |x: &S| twofold::value(p, x) > S::zero();
+    let crosses = is_above(&lower) != is_above(&upper);
     if simple && crosses {
         let value = if size(&left.value) <= size(&right.value) { &left.value } else { &right.value };
         return Root { value: value.clone(), lower, upper, kind: RootKind::Simple };

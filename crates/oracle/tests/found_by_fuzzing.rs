@@ -192,3 +192,20 @@ fn a_foot_beside_the_start_of_a_long_cubic() {
     );
     check_closest(&cubic, &p(unit, unit), 0.0, 1.0);
 }
+
+/// Six roots about 1.36, four of them complex, where the search changes to reciprocals: the signs at both ends were noise, and with
+/// the seventh root there were eight.
+#[test]
+fn a_cluster_at_the_border_keeps_its_parity() {
+    let c = [
+        1.0,
+        -1.1425628663055296,
+        -6.298773288688196,
+        18.50931828903984,
+        -21.530911494174756,
+        12.987866787700769,
+        -4.0370419141318985,
+        0.513591847421945,
+    ];
+    check_roots(&c, -1.0, 1.0);
+}

@@ -14,9 +14,11 @@ use std::time::Instant;
 use feature_sampling::curve::{CurveParam, nearest};
 use feature_sampling::geometry::Point;
 use feature_sampling::scalar::Scalar;
+use feature_sampling_mpfr::Mpfr;
 use feature_sampling_mpfr::enclosures::{self, Compared, Question};
 use feature_sampling_mpfr::ladder::{self, AtPrecision, RUNGS};
 use fsample_oracle::feature_size::{Oracle, Stroke};
+use fsample_oracle::verdict;
 use lineart::text_in;
 
 const HELP: &str = "\
@@ -32,6 +34,9 @@ The kernel of fsample in arbitrary precision (MPFR).
   fsample-mpfr enclosures DRAWING [--points N] [--width W]
       proved bounds of lfs in f64 and in 128 bits, at N random points (default 10), W of the upper bound apart (default 0.05),
       and what the judge of `lfs` finds: a table, then how many do not agree. Exit code 1 if any.
+  fsample-mpfr verdicts [--curves N] [--from SEED]
+      N random small curves (default 100), each from a seed of its own, with samples that are good as often as not: what is
+      proved or refuted in f64 is compared in 128 bits at the worst point of every gap. Exit code 1 at the first false verdict.
   fsample-mpfr accuracy
       docs/accuracy.md; FSAMPLE_DATA names a folder with drawings/ and truth/.
 
@@ -194,7 +199,7 @@ impl AtPrecision for Printed<'_> {
 /// lfs at a rung, as numbers of the highest precision.
 struct Rung<'j>(Job<'j>);
 
-type Highest = feature_sampling_mpfr::Mpfr<1024>;
+type Highest = Mpfr<1024>;
 
 impl AtPrecision for Rung<'_> {
     type Out = Result<Vec<Highest>, Failure>;
@@ -258,6 +263,34 @@ fn compared(options: &Options) -> Result<(String, bool), Failure> {
     Ok((out, apart == 0))
 }
 
+/// Counts of verdicts, or the first false one and exit code 1.
+fn verdicts(arguments: &[String]) -> Result<(String, ExitCode), Failure> {
+    let (mut curves, mut from) = (100_u64, 0_u64);
+    let mut rest = arguments.iter();
+    while let Some(argument) = rest.next() {
+        let mut value = || rest.next().and_then(|text| text.parse().ok()).filter(|v: &u64| *v <= 1 << 40);
+        let place = match argument.as_str() {
+            "--curves" => &mut curves,
+            "--from" => &mut from,
+            other => return Err(Failure::usage(format!("unknown option {other}"))),
+        };
+        *place = value().ok_or_else(|| Failure::usage(format!("{argument}: a whole number up to 2^40 is needed")))?;
+    }
+    let (mut counts, end) = (verdict::Counts::default(), from + curves);
+    while from < end {
+        let next = end.min(from + 100);
+        match verdict::survey::<Mpfr<128>>(from..next) {
+            Ok(more) => counts += more,
+            Err(cause) => return Ok((format!("{cause}\n"), ExitCode::from(1))),
+        }
+        eprintln!("up to seed {next}: {counts:?}");
+        from = next;
+    }
+    let verdict::Counts { rejected, proved, refuted, unknown, points } = counts;
+    let text = format!("rejected,proved,refuted,unknown,points\n{rejected},{proved},{refuted},{unknown},{points}\n");
+    Ok((text, ExitCode::SUCCESS))
+}
+
 fn read(file: &Path) -> Result<Vec<Stroke>, Failure> {
     let drawing = lineart::drawing::load(file).map_err(|error| Failure::input(file, error))?;
     if drawing.paths.is_empty() {
@@ -297,10 +330,11 @@ fn run(arguments: &[String]) -> Result<(String, ExitCode), Failure> {
             let (text, agree) = compared(&Options::parse(rest, Command::Enclosures)?)?;
             Ok((text, ExitCode::from(u8::from(!agree))))
         }
+        Some((first, rest)) if first == "verdicts" => verdicts(rest),
         Some((first, [])) if first == "accuracy" => {
             page::accuracy().map(done).map_err(|error: Box<dyn Error>| Failure(3, error.to_string()))
         }
-        Some((first, _)) => Err(Failure::usage(format!("{first}: lfs, ladder, enclosures or accuracy"))),
+        Some((first, _)) => Err(Failure::usage(format!("{first}: lfs, ladder, enclosures, verdicts or accuracy"))),
     }
 }
 

@@ -118,3 +118,17 @@ fn what_cannot_be_done() {
     fails(&["enclosures", &drawing, "--width", "1"], 2, "0.5");
     assert!(ok(&[]).contains("ladder DRAWING"), "without arguments it says how");
 }
+
+#[test]
+fn verdicts_on_random_curves_are_true() {
+    let table = ok(&["verdicts", "--curves", "12", "--from", "3"]);
+    let counts: Vec<u32> =
+        table.lines().nth(1).expect("a row").split(',').map(|n| n.parse().expect("a count")).collect();
+    let [rejected, proved, refuted, unknown, points] = counts[..] else { panic!("{table}") };
+    assert_eq!(rejected + proved + refuted + unknown, 12, "{table}");
+    assert!(proved > 0 && refuted > 0 && points > 10 * proved, "{table}");
+    for arguments in [&["verdicts", "--curves"][..], &["verdicts", "--curves", "many"], &["verdicts", "drawing.svg"]] {
+        let (code, _, message) = run(arguments);
+        assert_eq!((code, message.lines().count()), (2, 1), "{message}");
+    }
+}

@@ -69,7 +69,7 @@ impl<S: Scalar> Origin<S> {
         let foot = match self {
             Self::Curve(at) => return curve.point(at),
             Self::Normal(at, side) => Foot::normal(curve, at.clone(), *side)?,
-            Self::Fan(end, direction) => Foot::fan(curve, *end, direction.clone())?,
+            Self::Fan(end, direction) => Foot::fan(curve, *end, into_cone(curve, *end, direction)?)?,
         };
         let radius = tangent_disk(curve, &foot).radius;
         radius.is_finite().then(|| foot.point.plus_scaled(&radius, &foot.direction))
@@ -86,6 +86,16 @@ impl<S: Scalar> Origin<S> {
             side => Self::Normal(vertex.at.clone(), side),
         })
     }
+}
+
+/// A direction at an end that a rounding has moved out of the cone of feet, where no tangent disk is empty, put back on its verge.
+fn into_cone<S: Scalar>(curve: &Curve<'_, S>, end: EndId, direction: &Vector<S>) -> Option<Vector<S>> {
+    let branches = curve.joint(end).filter_map(|id| curve.end(id).map(|end| &end.leaving));
+    branches.fold(Some(direction.clone()), |d, branch| {
+        let d = d?;
+        let along = d.dot(branch);
+        if along <= S::zero() { Some(d) } else { d.plus(&branch.scaled(&-along)).unit() }
+    })
 }
 
 impl Origin<f64> {

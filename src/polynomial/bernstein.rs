@@ -15,7 +15,7 @@
 //! * *shift to the interval*: as in twice the precision (`twofold`), one rounding of |cⱼ| and 8N²u·Σ C(i,j)|aᵢ|loⁱ⁻ʲ; times
 //!   wʲ and summed over j the latter is at most 8N²u·Σ|aⱼ|hiʲ;
 //! * *halving*: n levels of averages of numbers of at most max |bᵢ| ≤ L·Σ|qⱼ| in modulus round once each: n·L·Σ|qⱼ| more for
-//!   each halving.
+//!   each halving. A middle that is no number of the scalar is rounded; [`Given::Exactly`], both halves are then written anew.
 //!
 //! What Σ|qⱼ| measures is the size of p *on the piece*: writing p anew on a short piece near a zero leaves little noise.
 //! Where nothing is to be proved about the given coefficients, N·u·L·Σ|aⱼ|hiʲ is added: about what the roundings
@@ -265,7 +265,7 @@ impl<S: Scalar, const N: usize> Piece<S, N> {
     }
 
     /// Cuts itself to its right half and `left`, a copy of it, to its left half; `false` if there is no number strictly between
-    /// the ends.
+    /// the ends. Where the middle is no number of the scalar coefficients are those of halves, and ends are rounded.
     #[inline]
     pub(crate) fn halve(&mut self, left: &mut Self) -> bool {
         let mid = S::midpoint(&self.lo, &self.hi);

@@ -107,9 +107,10 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
         if !p.is_scaled_exactly(self) {
             return Ok(unknown(lo, hi));
         }
-        // An end is an ordinary place to have a root: look a little beyond.
-        let beyond = |x: &S| x.clone().abs().mul_pow2(-(S::BITS / 2).cast_signed());
-        let mut roots = p.certified_line(&(lo.clone() - &beyond(lo)), &(hi.clone() + &beyond(hi)));
+        // An end is an ordinary place to have a root: look a little beyond. Half as many digits halve exactly for longer.
+        let beyond = |x: &S| x.clone().abs().mul_pow2(2 - (S::BITS / 2).cast_signed());
+        let (from, to) = (lo.clone() - &beyond(lo), hi.clone() + &beyond(hi));
+        let mut roots = p.certified_line(&twofold::half_the_digits(from), &twofold::half_the_digits(to));
         roots.retain(|root| p.cut(root, lo, hi));
         Ok(roots)
     }
@@ -239,9 +240,11 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
         let (reversed, _) = self.reversed().without_zeros();
         let nudge = S::unit_roundoff().mul_pow2(2);
         let (less, more) = (S::one() - &nudge, S::one() + &nudge);
-        let farthest = if hi.is_finite() { less.clone() / hi } else { S::zero() };
+        let wide = S::one().mul_pow2(2 - (S::BITS / 2).cast_signed());
+        let farthest = if hi.is_finite() { (S::one() - &wide) / hi } else { S::zero() };
+        let nearest = (S::one() + &wide) / &lo.clone().max(border.clone());
         let mut far = CertifiedRoots::new();
-        reversed.prove(farthest, more.clone() / &lo.clone().max(border.clone()), &mut far);
+        reversed.prove(twofold::half_the_digits(farthest), twofold::half_the_digits(nearest), &mut far);
         let bound = self.root_bound().unwrap_or_else(S::infinity);
         for r in far.into_iter().rev() {
             let lower = less.clone() / &r.upper;
@@ -250,14 +253,18 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
             }
             let upper = if r.lower.is_zero() { bound.clone() } else { more.clone() / &r.lower };
             let value = (S::one() / &r.value).clamp(lower.clone(), upper.clone());
-            match roots.last_mut() {
-                // At the border from both sides, perhaps the same: once more, on both brackets together.
-                Some(last) if last.upper >= lower => {
-                    let from = last.lower.clone();
-                    roots.pop();
-                    self.prove(from, upper, &mut roots);
-                }
-                _ => push(&mut roots, Certified { value, lower, upper, holds: r.holds }),
+            // At the border from both sides, perhaps the same: once more, on all these brackets together.
+            let (mut from, mut to) = (lower.clone(), upper.clone());
+            let known = roots.len();
+            while let Some(last) = roots.last().filter(|last| last.upper >= from).cloned() {
+                from = from.min(last.lower);
+                to = to.max(last.upper);
+                roots.pop();
+            }
+            if roots.len() < known {
+                self.prove(from, to, &mut roots);
+            } else {
+                push(&mut roots, Certified { value, lower, upper, holds: r.holds });
             }
         }
         roots

@@ -15,8 +15,8 @@
 //!
 //! Work is bounded by a number of steps; what is left when they are spent is reported as clusters, never dropped.
 
-use super::Polynomial;
 use super::bernstein::{self, Given, Piece, Signs};
+use super::{Polynomial, twofold};
 use crate::buffer::Keep;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
@@ -190,6 +190,9 @@ pub(super) fn isolate<S: Scalar, const N: usize>(
                     if let [.., right, left] = pieces.as_mut_slice()
                         && right.halve(left)
                     {
+                        if given == Given::Exactly && !twofold::is_exact_sum(&left.lo, &right.hi) {
+                            seat_again(p, left, right);
+                        }
                         verdict = judge(left);
                         continue;
                     }
@@ -221,6 +224,15 @@ pub(super) fn isolate<S: Scalar, const N: usize>(
     record.close();
 }
 
+/// Halves whose common end was rounded are not quite halves: coefficients that prove something are those between the ends as
+/// they are.
+#[cold]
+fn seat_again<S: Scalar, const N: usize>(p: &Polynomial<S, N>, left: &mut Piece<S, N>, right: &mut Piece<S, N>) {
+    for piece in [left, right] {
+        *piece = Piece::seated(p, piece.lo.clone(), piece.hi.clone(), Given::Exactly);
+    }
+}
+
 /// Throws out pieces without roots; no sign changes on them, so nothing else is lost.
 #[cold]
 fn make_room<S: Scalar, const N: usize>(pieces: &mut ArrayVec<Piece<S, N>, PENDING>) {
@@ -241,15 +253,23 @@ fn settle<S: Scalar, const N: usize>(
     let width = piece.hi.clone() - &piece.lo;
     let (lo, hi) = (piece.lo.clone(), piece.hi.clone());
     let (lower, upper, before, after, count) = match verdict {
-        Verdict::AtLower(share, count) => (lo.clone(), lo + &(width * &share), 0, signs.at(last), count),
-        Verdict::AtUpper(share, count) => (hi.clone() - &(width * &share), hi, signs.at(0), 0, count),
+        Verdict::AtLower(share, count) => (lo.clone(), lo.clone() + &(width * &share), 0, signs.at(last), count),
+        Verdict::AtUpper(share, count) => (hi.clone() - &(width * &share), hi.clone(), signs.at(0), 0, count),
         _ if piece.settled => {
             record.cluster(lo, hi, 0, 0, 0);
             return None;
         }
-        _ => (lo, hi, 0, 0, 0),
+        _ => (lo.clone(), hi.clone(), 0, 0, 0),
     };
-    if lower >= upper {
+    let (lower, upper) = match given {
+        // Rounded outwards, where this is still a part of the piece: what is proved holds beyond.
+        Given::Exactly => {
+            let nudge = S::unit_roundoff().twice();
+            (lo.clone().max(lower * &(S::one() - &nudge)), hi.clone().min(upper * &(S::one() + &nudge)))
+        }
+        _ => (lower, upper),
+    };
+    if lower >= upper || (count > 0 && lower <= lo && upper >= hi) {
         record.cluster(lower, upper, before, after, count);
         return None;
     }

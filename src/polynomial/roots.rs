@@ -14,9 +14,9 @@ use core::array::from_fn;
 use core::fmt;
 
 /// Intervals up to here are searched directly, the rest through reciprocals. Some number near 1 that nobody has a root at: one
-/// there would be found from both sides, which costs time.
+/// there would be found from both sides, which costs time. Of few digits, so that [0, border] is halved exactly for long.
 pub(super) fn border<S: Scalar>() -> S {
-    S::ratio(127, 93)
+    S::int(1397).mul_pow2(-10)
 }
 
 /// What is known about the roots in a bracket.

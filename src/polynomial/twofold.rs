@@ -31,6 +31,20 @@ pub(super) fn two_sum<S: Scalar>(a: S, b: &S) -> (S, S) {
     (s, (a - &aa) + &(b.clone() - &bb))
 }
 
+/// Rounded to half as many digits, BITS − ⌈BITS/2⌉: off by 2^(⌈BITS/2⌉ − BITS)·|x| at most. Near the largest number x itself.
+#[inline]
+pub(super) fn half_the_digits<S: Scalar>(x: S) -> S {
+    let high = Split::new(x.clone()).high;
+    if high.is_finite() { high } else { x }
+}
+
+/// The sum has no rounding error, nor has half of it.
+#[inline]
+pub(super) fn is_exact_sum<S: Scalar>(a: &S, b: &S) -> bool {
+    let (sum, error) = two_sum(a.clone(), b);
+    error.is_zero() && sum.clone().half().twice() == sum
+}
+
 /// A factor with its two halves of half as many bits.
 #[derive(Clone, Debug)]
 pub(super) struct Split<S> {

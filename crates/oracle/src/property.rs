@@ -218,14 +218,15 @@ pub fn check_closest(cubic: &Cubic<f64>, q: &Point<f64>, from: f64, to: f64) {
     }
 }
 
-/// How far |B(t) − q| may be off by when B is evaluated in doubles: three steps of Horner's scheme and a difference for each
-/// coordinate, 7u(Σ|aⱼ|tʲ + |q|).
+/// How far |B(t) − q| may be off by in doubles: three steps of Horner's scheme and a difference for each coordinate make
+/// 7u(Σ|aⱼ|tʲ + |q|); and as much again, since a stationary point is looked for where B is written anew about a point of a short
+/// stretch, by the same scheme.
 fn horner_noise(b: &PowerBasis<f64>, q: &Point<f64>, t: f64) -> f64 {
     let [a1, a2, a3] = &b.a;
     let moduli = |[c0, c1, c2, c3]: [f64; 4]| c0.abs() + t * (c1.abs() + t * (c2.abs() + t * c3.abs()));
     let x = moduli([b.origin.x, a1.x, a2.x, a3.x]) + q.x.abs();
     let y = moduli([b.origin.y, a1.y, a2.y, a3.y]) + q.y.abs();
-    3.5 * f64::EPSILON * x.hypot(y)
+    7.0 * f64::EPSILON * x.hypot(y)
 }
 
 /// The SVG reader: a typed error that names the file, in one line, or a drawing whose numbers are finite and whose paths

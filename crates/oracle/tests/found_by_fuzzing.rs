@@ -209,3 +209,25 @@ fn a_cluster_at_the_border_keeps_its_parity() {
     ];
     check_roots(&c, -1.0, 1.0);
 }
+
+/// Two roots 2e-15 apart: pieces were halved in the middle, their ends rounded, and a bracket "with exactly one root" ended half a unit
+/// of the last place before it.
+#[test]
+fn a_certified_bracket_is_where_its_piece_is() {
+    let c = [0.24969488382342317, 31.941421508790878, 1020.2514648437499, -79.9375, 1.0];
+    check_roots(&c, -0.0625, 4.0);
+}
+
+/// Beside the end the slope of the distance is known to two and a half errors of Horner's scheme.
+#[test]
+fn a_stationary_point_beside_the_end_within_the_noise_of_two_schemes() {
+    let p = Point::new;
+    let unit = 2.3283064365386963e-10;
+    let cubic = Cubic::new(
+        p(-65536.00000000035, 2.3283064451445505e-10),
+        p(2.3283085875958065e-10, unit),
+        p(-0.0002441406259107437, 2.97208502949325e-8),
+        p(1.3385492649318563e-9, 2.3288726502812877e-10),
+    );
+    check_closest(&cubic, &p(unit, unit), 0.0, 1.0);
+}

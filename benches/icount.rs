@@ -42,12 +42,12 @@ fn run(job: &str, rounds: u32) -> usize {
         "tangent_disk" | "lfs" => drawing(function, rounds),
         "nearest" => {
             let list: Vec<(PowerBasis<f64>, Point<f64>)> =
-                queries::class(class).into_iter().map(|(b, q)| (b.power_basis(), q)).collect();
+                queries::class(class, 1024).into_iter().map(|(b, q)| (b.power_basis(), q)).collect();
             repeat(&list, rounds, |(b, q)| nearest(b, q).distance_sq)
         }
         _ => {
             let list: Vec<Polynomial<f64, 6>> =
-                queries::class(class).iter().map(|(b, q)| distance_quintic(&b.power_basis(), q)).collect();
+                queries::class(class, 1024).iter().map(|(b, q)| distance_quintic(&b.power_basis(), q)).collect();
             if function == "real_roots" {
                 repeat(&list, rounds, |p| p.real_roots().map_or(0, |r| r.len()))
             } else {

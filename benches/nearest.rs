@@ -13,7 +13,7 @@ use std::hint::black_box;
 fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group("nearest");
     for n in 0..3 {
-        let list = queries::class(n);
+        let list = queries::class(n, 1024);
         let ours: Vec<_> = list.iter().map(|(b, q)| (b.power_basis(), *q)).collect();
         let mut i = 0;
         group.bench_function(BenchmarkId::new("ours", format!("c{n}")), |bencher| {
@@ -38,7 +38,7 @@ fn bench(c: &mut Criterion) {
             });
         });
     }
-    let list = queries::class(0);
+    let list = queries::class(0, 1024);
     let cubics: Vec<Cubic<f64>> = list.iter().map(|(b, _)| *b).collect();
     let mut i = 0;
     group.bench_function("hull_distance_sq", |bencher| {

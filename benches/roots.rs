@@ -31,7 +31,7 @@ fn planted(k: usize) -> Vec<Polynomial<f64, 6>> {
 fn bench(c: &mut Criterion) {
     let mut sets: Vec<(String, Vec<Polynomial<f64, 6>>)> = (0..3)
         .map(|n| {
-            let list = queries::class(n).iter().map(|(b, q)| distance_quintic(&b.power_basis(), q)).collect();
+            let list = queries::class(n, 1024).iter().map(|(b, q)| distance_quintic(&b.power_basis(), q)).collect();
             (format!("c{n}"), list)
         })
         .collect();

@@ -25,11 +25,11 @@ impl Random {
     }
 }
 
-/// 1024 cubics with a query each.
-pub(crate) fn class(number: u32) -> Vec<(Cubic<f64>, Point<f64>)> {
+/// So many cubics with a query each.
+pub(crate) fn class(number: u32, count: usize) -> Vec<(Cubic<f64>, Point<f64>)> {
     let mut random = Random::new(42);
     let mut list = Vec::new();
-    while list.len() < 1024 {
+    while list.len() < count {
         let cubic = Cubic::new(random.point(), random.point(), random.point(), random.point());
         let (control, b, t) = (cubic.control_box(), cubic.power_basis(), random.unit());
         let extent = control.extent();

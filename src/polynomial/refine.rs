@@ -64,9 +64,9 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         if !(lower <= next && next <= upper && (is_finest || step.clone().twice() <= previous)) {
             break;
         }
-        let curving = (step.clone() / &previous).square() * &step;
         x = next;
         if is_precise {
+            let curving = (step.clone() / &previous).square() * &step;
             // curving + wobble·step/|slope| < size·resolution, the wobble being 2N²u·Σ|aⱼ||x|ʲ/|x|, without divisions
             let magnitude = p.magnitude(&x);
             let scale = slope.clone().abs() * &size;
@@ -80,7 +80,10 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             let wide = size.clone() * width;
             let is_fast = is_converging && step.clone().mul_pow2(4) <= previous;
             let is_plain = is_fast && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
-            if is_plain && curving.clone().mul_pow2(3) <= wide {
+            // step³/previous² is what is left, and a division to wait for
+            let (cube, before) = (step.clone().square() * &step, previous.square());
+            let allowed = wide.clone() * &before;
+            if is_plain && cube.clone().mul_pow2(3) <= allowed && is_above_underflow(allowed) {
                 let half = wide.half();
                 let (left, right) = (x.clone() - &half, x.clone() + &half);
                 if lower < left && right < upper {
@@ -88,7 +91,7 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
                 }
             }
             let least = size * &half_way;
-            is_precise = is_finest || (is_converging && !is_plain && curving <= least);
+            is_precise = is_finest || (is_converging && !is_plain && cube <= least.clone() * &before);
             previous = if is_precise { step.max(least) } else { step };
         }
         is_converging = true;
@@ -126,7 +129,12 @@ fn is_good_for<S: Scalar, const N: usize>(p: &Polynomial<S, N>, width: &S, x: &S
 /// The products in a last step of Halley's, p·p' and p'², lose no digits that matter at the lower end of the scalar's range.
 #[inline]
 fn keeps_digits<S: Scalar>(slope: &S, size: &S) -> bool {
-    let product = slope.clone().square() * size;
+    is_above_underflow(slope.clone().square() * size)
+}
+
+/// A product so far above the lower end of the scalar's range that neither it nor what it is compared with lost digits there.
+#[inline]
+fn is_above_underflow<S: Scalar>(product: S) -> bool {
     !product.mul_pow2(-(2 * S::BITS).cast_signed()).is_zero()
 }
 

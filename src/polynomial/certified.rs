@@ -22,7 +22,7 @@
 //! coefficient inexact the answer is one bracket, the whole interval, about which nothing is said.
 
 use super::bernstein::{Given, Piece};
-use super::isolate::{Found, Isolated, isolate};
+use super::isolate::{Found, Isolated, has_no_root, isolate};
 use super::refine::crossing;
 use super::roots::{RootsError, border};
 use super::{Polynomial, twofold};
@@ -90,7 +90,13 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     ///
     /// # Errors
     /// [`RootsError::NotFinite`], [`RootsError::ZeroPolynomial`].
+    #[inline]
     pub fn certified_in_unit(&self) -> Result<CertifiedRoots<S, N>, RootsError> {
+        // Most polynomials without roots show it at once.
+        let weight = self.weight();
+        if Self::is_comfortable(&weight) && has_no_root(&Piece::unit(self, &weight)) {
+            return Ok(CertifiedRoots::new());
+        }
         self.certified_between(&S::zero(), &S::one())
     }
 

@@ -286,6 +286,12 @@ fn settle<S: Scalar, const N: usize>(
     Some(anew)
 }
 
+/// All coefficients are beyond the noise, on one side: p has no root on the piece.
+#[inline]
+pub(super) fn has_no_root<S: Scalar, const N: usize>(piece: &Piece<S, N>) -> bool {
+    matches!(judge(piece), Verdict::None(_))
+}
+
 /// Reads the sign pattern of a piece.
 #[inline]
 fn judge<S: Scalar, const N: usize>(piece: &Piece<S, N>) -> Verdict<S> {

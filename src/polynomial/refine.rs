@@ -65,13 +65,15 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             break;
         }
         x = next;
+        // What is left is step³/previous², a quotient that is not waited for.
+        let (cube, before) = (step.clone().square() * &step, previous.clone().square());
         if is_precise {
-            let curving = (step.clone() / &previous).square() * &step;
-            // curving + wobble·step/|slope| < size·resolution, the wobble being 2N²u·Σ|aⱼ||x|ʲ/|x|, without divisions
+            // step³/previous² + wobble·step/|slope| < size·resolution, the wobble being 2N²u·Σ|aⱼ||x|ʲ/|x|, without divisions
             let magnitude = p.magnitude(&x);
             let scale = slope.clone().abs() * &size;
-            let unsure = wobble::<S, N>() * &magnitude * &step;
-            if is_finest || curving * &scale + &unsure < scale * &size * &resolution {
+            let unsure = wobble::<S, N>() * &magnitude * &step * &before;
+            let allowed = scale.clone() * &size * &resolution * &before;
+            if is_finest || (cube * &scale + &unsure < allowed && is_above_underflow(allowed)) {
                 found = keeps_digits(&slope, &size).then(|| (x.clone(), slope, magnitude));
                 break;
             }
@@ -80,8 +82,6 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             let wide = size.clone() * width;
             let is_fast = is_converging && step.clone().mul_pow2(4) <= previous;
             let is_plain = is_fast && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
-            // step³/previous² is what is left, and a division to wait for
-            let (cube, before) = (step.clone().square() * &step, previous.square());
             let allowed = wide.clone() * &before;
             if is_plain && cube.clone().mul_pow2(3) <= allowed && is_above_underflow(allowed) {
                 let half = wide.half();

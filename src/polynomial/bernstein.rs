@@ -15,7 +15,7 @@
 //! * *shift to the interval*: as in twice the precision (`twofold`), one rounding of |cⱼ| and 8N²u·Σ C(i,j)|aᵢ|loⁱ⁻ʲ; times
 //!   wʲ and summed over j the latter is at most 8N²u·Σ|aⱼ|hiʲ;
 //! * *halving*: n levels of averages of numbers of at most max |bᵢ| ≤ L·Σ|qⱼ| in modulus round once each: n·L·Σ|qⱼ| more for
-//!   each halving. A middle that is no number of the scalar is rounded; [`Given::Exactly`], both halves are then written anew.
+//!   each halving. A middle that is no number of the scalar is rounded; for [`Given::Provably`] both halves are then written anew.
 //!
 //! What Σ|qⱼ| measures is the size of p *on the piece*: writing p anew on a short piece near a zero leaves little noise.
 //! Where nothing is to be proved about the given coefficients, N·u·L·Σ|aⱼ|hiʲ is added: about what the roundings
@@ -197,6 +197,8 @@ pub(crate) enum Given {
     Once,
     /// They are these very numbers.
     Exactly,
+    /// They are, and what is found is a theorem: pieces end just where they say.
+    Provably,
 }
 
 /// A polynomial in Bernstein form on [lo, hi], 0 ≤ lo < hi, with the noise of its coefficients.
@@ -243,9 +245,9 @@ impl<S: Scalar, const N: usize> Piece<S, N> {
         match given {
             Given::Rounded => noise = noise + &(Self::roundings(N) * &magnitude),
             Given::Once => noise = noise + &(Self::roundings(1) * &magnitude),
-            Given::Exactly if twofold::is_in_range(&magnitude) => {}
+            Given::Exactly | Given::Provably if twofold::is_in_range(&magnitude) => {}
             // nothing is certain
-            Given::Exactly => noise = S::infinity(),
+            Given::Exactly | Given::Provably => noise = S::infinity(),
         }
         let growth = Self::roundings(N) * &local;
         Self { b: on_unit(&q), lo, hi, noise, growth, settled: false }

@@ -278,8 +278,8 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
 
     /// Appends what is proved about [lo, hi], 0 ≤ lo < hi, p(0) ≠ 0.
     fn prove(&self, lo: S, hi: S, roots: &mut CertifiedRoots<S, N>) {
-        let first = Piece::seated(self, lo, hi, Given::Exactly);
-        isolate(self, first, Given::Exactly, |isolated| push(roots, self.proved(isolated)));
+        let first = Piece::seated(self, lo, hi, Given::Provably);
+        isolate(self, first, Given::Provably, |isolated| push(roots, self.proved(isolated)));
     }
 
     /// The bracket of an isolated root, narrowed as far as signs are certain.

@@ -190,7 +190,7 @@ pub(super) fn isolate<S: Scalar, const N: usize>(
                     if let [.., right, left] = pieces.as_mut_slice()
                         && right.halve(left)
                     {
-                        if given == Given::Exactly && !twofold::is_exact_sum(&left.lo, &right.hi) {
+                        if given == Given::Provably && !twofold::is_exact_sum(&left.lo, &right.hi) {
                             seat_again(p, left, right);
                         }
                         verdict = judge(left);
@@ -229,7 +229,7 @@ pub(super) fn isolate<S: Scalar, const N: usize>(
 #[cold]
 fn seat_again<S: Scalar, const N: usize>(p: &Polynomial<S, N>, left: &mut Piece<S, N>, right: &mut Piece<S, N>) {
     for piece in [left, right] {
-        *piece = Piece::seated(p, piece.lo.clone(), piece.hi.clone(), Given::Exactly);
+        *piece = Piece::seated(p, piece.lo.clone(), piece.hi.clone(), Given::Provably);
     }
 }
 
@@ -263,7 +263,7 @@ fn settle<S: Scalar, const N: usize>(
     };
     let (lower, upper) = match given {
         // Rounded outwards, where this is still a part of the piece: what is proved holds beyond.
-        Given::Exactly => {
+        Given::Provably => {
             let nudge = S::unit_roundoff().twice();
             (lo.clone().max(lower * &(S::one() - &nudge)), hi.clone().min(upper * &(S::one() + &nudge)))
         }

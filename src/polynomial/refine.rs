@@ -81,7 +81,7 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         } else {
             let wide = size.clone() * width;
             let is_fast = is_converging && step.clone().mul_pow2(4) <= previous;
-            let is_plain = is_fast && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
+            let is_plain = takes_width::<S>() && is_fast && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
             let allowed = wide.clone() * &before;
             if is_plain && cube.clone().mul_pow2(3) <= allowed && is_above_underflow(allowed) {
                 let half = wide.half();
@@ -114,6 +114,12 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         value: x,
         kind: RootKind::Simple,
     }
+}
+
+/// A scalar of few bits is a chip's: it has no other brackets than the narrowest, which take one step more, for a few hundred bytes
+/// of flash.
+const fn takes_width<S: Scalar>() -> bool {
+    S::BITS > f32::MANTISSA_DIGITS
 }
 
 /// What plain values leave of a step of Halley's that led to x is an eighth of this width at most: 2Nu·Σ|aⱼ||x|ʲ/|p'| from the

@@ -391,6 +391,28 @@ mod tests {
     }
 
     #[test]
+    fn brackets_that_end_at_a_root_at_0() {
+        // x(x − 1)(x + 2⁻³⁰), and what is said where a bracket cannot be shortened
+        let p = Polynomial::new([0.0_f64, -(2.0_f64.powi(-30)), 2.0_f64.powi(-30) - 1.0, 1.0]);
+        let roots = p.certified_real_roots().expect("finite");
+        assert!(roots.iter().all(|r| r.holds == Holds::One) && roots.len() == 3, "{roots:?}");
+        assert!(roots[0].upper < 0.0 && roots[1].lower == 0.0 && roots[1].upper == 0.0, "{roots:?}");
+        let bracket = |lower: f64, upper: f64, holds| Certified { value: upper, lower, upper, holds };
+        let parity = |a, b| {
+            let mut both = bracket(-1.0, 0.0, a);
+            both.absorb(bracket(0.0, 2.0, b));
+            assert_eq!((both.lower, both.value, both.upper), (-1.0, 0.0, 2.0));
+            both.holds
+        };
+        assert_eq!((parity(Holds::One, Holds::One), parity(Holds::One, Holds::Odd)), (Holds::Even, Holds::Even));
+        assert_eq!((parity(Holds::Even, Holds::Even), parity(Holds::Even, Holds::One)), (Holds::Even, Holds::Odd));
+        assert_eq!(
+            (parity(Holds::Unknown, Holds::One), parity(Holds::Odd, Holds::Unknown)),
+            (Holds::Unknown, Holds::Unknown)
+        );
+    }
+
+    #[test]
     fn single_precision() {
         let p = Polynomial::new([-0.25_f32, 1.0, -0.5, 2.0]);
         let roots = p.certified_in_unit().expect("finite");

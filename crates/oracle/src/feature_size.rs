@@ -90,9 +90,8 @@ impl<S: Scalar> Origin<S> {
 
 /// A direction at an end that a rounding has moved out of the cone of feet, where no tangent disk is empty, put back on its verge.
 fn into_cone<S: Scalar>(curve: &Curve<'_, S>, end: EndId, direction: &Vector<S>) -> Option<Vector<S>> {
-    let branches = curve.joint(end).filter_map(|id| curve.end(id).map(|end| &end.leaving));
-    branches.fold(Some(direction.clone()), |d, branch| {
-        let d = d?;
+    let mut branches = curve.joint(end).filter_map(|id| curve.end(id).map(|end| &end.leaving));
+    branches.try_fold(direction.clone(), |d, branch| {
         let along = d.dot(branch);
         if along <= S::zero() { Some(d) } else { d.plus(&branch.scaled(&-along)).unit() }
     })

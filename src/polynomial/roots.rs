@@ -286,14 +286,34 @@ fn search_beyond<S: Scalar, const N: usize>(
         search(&reversed, piece, Given::Rounded, width, &mut far);
     }
     let reciprocal = |t: &S| (one.clone() / t).clamp(lo.clone(), hi.clone());
-    let mut far = far.into_iter().rev().filter(|r| !r.value.is_zero()).map(|r| Root {
-        value: reciprocal(&r.value),
-        lower: reciprocal(&r.upper),
-        upper: if r.lower.is_zero() { hi.clone() } else { reciprocal(&r.lower) },
-        kind: r.kind,
-    });
+    let mut far = far
+        .into_iter()
+        .rev()
+        .filter(|r| !r.value.is_zero())
+        .map(|r| Root {
+            value: reciprocal(&r.value),
+            lower: reciprocal(&r.upper),
+            upper: if r.lower.is_zero() { hi.clone() } else { reciprocal(&r.lower) },
+            kind: r.kind,
+        })
+        .peekable();
     // a root at the border, found from both sides, is one root
     let mut first_far = far.next();
+    if let (Some(left), Some(right)) = (near.last(), &first_far)
+        && left.kind != RootKind::Simple
+        && right.kind != RootKind::Simple
+        && (left.upper >= border) != (right.lower <= border)
+    {
+        // Noise around a multiple root on one side reaches the border, and goes on beyond: once more, on both together and as far
+        // to the other side.
+        let before = near.iter().rev().nth(1).map_or_else(|| lo.clone(), |root| root.upper.clone());
+        let behind = far.peek().map_or_else(|| hi.clone(), |root| root.lower.clone());
+        let from = left.lower.clone().min(left.value.clone().twice() - &right.upper).max(before);
+        let to = right.upper.clone().max(right.value.clone().twice() - &left.lower).min(behind).min(S::int(2));
+        near.pop();
+        first_far = None;
+        search(p, Piece::seated(p, from, to, Given::Rounded), Given::Rounded, width, &mut near);
+    }
     if let (Some(left), Some(right)) = (near.last_mut(), &first_far)
         && left.upper >= border
         && right.lower <= border

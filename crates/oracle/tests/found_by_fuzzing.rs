@@ -231,3 +231,21 @@ fn a_stationary_point_beside_the_end_within_the_noise_of_two_schemes() {
     );
     check_closest(&cubic, &p(unit, unit), 0.0, 1.0);
 }
+
+/// A root of order five 2e-3 below the border: the noise around it went on beyond the border, as a cluster of three of its own.
+#[test]
+fn a_multiple_root_beside_the_border_is_one() {
+    let c = [
+        1.0,
+        -5.025390625,
+        10.81646728515625,
+        -12.925183773040771,
+        9.260445386171341,
+        -3.977901568985544,
+        0.9485520235939475,
+        -0.09685656604611381,
+    ];
+    let found = solve(&c, Ask::Real).expect("finite");
+    assert_eq!(found.len(), 3, "{found:?}");
+    check_roots(&c, -1.0, 1.0);
+}

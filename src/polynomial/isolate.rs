@@ -269,7 +269,8 @@ fn settle<S: Scalar, const N: usize>(
         }
         _ => (lower, upper),
     };
-    if lower >= upper || (count > 0 && lower <= lo && upper >= hi) {
+    let is_no_part = given == Given::Provably && count > 0 && lower <= lo && upper >= hi;
+    if lower >= upper || is_no_part {
         record.cluster(lower, upper, before, after, count);
         return None;
     }

@@ -65,7 +65,8 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             break;
         }
         x = next;
-        // What is left is step³/previous², a quotient that is not waited for.
+        // What is left is step³/previous², a quotient that is not waited for: products are compared. Where they underflow to 0 neither
+        // is less than the other, and another step is taken.
         let (cube, before) = (step.clone().square() * &step, previous.clone().square());
         if is_precise {
             // step³/previous² + wobble·step/|slope| < size·resolution, the wobble being 2N²u·Σ|aⱼ||x|ʲ/|x|, without divisions
@@ -73,7 +74,7 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
             let scale = slope.clone().abs() * &size;
             let unsure = wobble::<S, N>() * &magnitude * &step * &before;
             let allowed = scale.clone() * &size * &resolution * &before;
-            if is_finest || (cube * &scale + &unsure < allowed && is_above_underflow(allowed)) {
+            if is_finest || cube * &scale + &unsure < allowed {
                 found = keeps_digits(&slope, &size).then(|| (x.clone(), slope, magnitude));
                 break;
             }
@@ -81,9 +82,8 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
         } else {
             let wide = size.clone() * width;
             let is_fast = is_converging && step.clone().mul_pow2(4) <= previous;
-            let is_plain = takes_width::<S>() && is_fast && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
-            let allowed = wide.clone() * &before;
-            if is_plain && cube.clone().mul_pow2(3) <= allowed && is_above_underflow(allowed) {
+            let is_plain = is_fast && !wide.is_zero() && is_good_for(p, &wide, &x, &slope, &step);
+            if is_plain && cube.clone().mul_pow2(3) < wide.clone() * &before {
                 let half = wide.half();
                 let (left, right) = (x.clone() - &half, x.clone() + &half);
                 if lower < left && right < upper {
@@ -116,12 +116,6 @@ pub(super) fn crossing<S: Scalar, const N: usize>(
     }
 }
 
-/// A scalar of few bits is a chip's: it has no other brackets than the narrowest, which take one step more, for a few hundred bytes
-/// of flash.
-const fn takes_width<S: Scalar>() -> bool {
-    S::BITS > f32::MANTISSA_DIGITS
-}
-
 /// What plain values leave of a step of Halley's that led to x is an eighth of this width at most: 2Nu·Σ|aⱼ||x|ʲ/|p'| from the
 /// value and, with a step below |x|/N, no more from the slope.
 #[inline]
@@ -135,12 +129,7 @@ fn is_good_for<S: Scalar, const N: usize>(p: &Polynomial<S, N>, width: &S, x: &S
 /// The products in a last step of Halley's, p·p' and p'², lose no digits that matter at the lower end of the scalar's range.
 #[inline]
 fn keeps_digits<S: Scalar>(slope: &S, size: &S) -> bool {
-    is_above_underflow(slope.clone().square() * size)
-}
-
-/// A product so far above the lower end of the scalar's range that neither it nor what it is compared with lost digits there.
-#[inline]
-fn is_above_underflow<S: Scalar>(product: S) -> bool {
+    let product = slope.clone().square() * size;
     !product.mul_pow2(-(2 * S::BITS).cast_signed()).is_zero()
 }
 

@@ -102,7 +102,7 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
     /// [`Self::roots_in_unit`] for those who need no more than brackets of a given width relative to the root.
     ///
     /// A simple root x has a bracket of `width`·|x| around its value, where that stays clear of other roots and of the ends
-    /// and plain evaluations are good enough for it; otherwise, and with a width of 0, and in `f32`, the narrowest. Everything else is
+    /// and plain evaluations are good enough for it; otherwise, and with a width of 0, the narrowest. Everything else is
     /// the same. With 1e-12 in `f64` this takes about a tenth less time (`cargo bench --bench race`).
     ///
     /// # Errors

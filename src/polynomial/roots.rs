@@ -300,8 +300,7 @@ fn search_beyond<S: Scalar, const N: usize>(
     // a root at the border, found from both sides, is one root
     let mut first_far = far.next();
     if let (Some(left), Some(right)) = (near.last(), &first_far)
-        && left.kind != RootKind::Simple
-        && right.kind != RootKind::Simple
+        && (left.kind != RootKind::Simple || right.kind != RootKind::Simple)
         && (left.upper >= border) != (right.lower <= border)
     {
         // Noise around a multiple root on one side reaches the border, and goes on beyond: once more, on both together and as far

@@ -249,3 +249,30 @@ fn a_multiple_root_beside_the_border_is_one() {
     assert_eq!(found.len(), 3, "{found:?}");
     check_roots(&c, -1.0, 1.0);
 }
+
+/// Near misses of order six 1e-2 beyond the border: the noise before it was a simple root at the border, and none is there.
+#[test]
+fn the_noise_of_a_multiple_root_beyond_the_border_is_no_root() {
+    let c = [
+        6.757950382650499,
+        36.24720188508033,
+        83.10609690511252,
+        105.60896166145241,
+        80.35146535286796,
+        36.60934532596712,
+        9.249996231868863,
+        1.0,
+    ];
+    check_roots(&c, -2.0625, 0.0);
+    let c = [
+        13.938310864261181,
+        67.5796890368976,
+        140.07426454522272,
+        160.8508300952664,
+        110.48339844622653,
+        45.3750000023573,
+        10.312500000263753,
+        1.0,
+    ];
+    check_roots(&c, -1.375, -3.674451042612832e-7);
+}

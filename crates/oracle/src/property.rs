@@ -218,9 +218,9 @@ pub fn check_closest(cubic: &Cubic<f64>, q: &Point<f64>, from: f64, to: f64) {
     }
 }
 
-/// How far |B(t) − q| may be off by in doubles: three steps of Horner's scheme and a difference for each coordinate make
-/// 7u(Σ|aⱼ|tʲ + |q|); and as much again, since a stationary point is looked for where B is written anew about a point of a short
-/// stretch, by the same scheme.
+/// What Horner's scheme leaves unknown of |B(t) − q| where two points are compared. Three of its steps and a difference are off by
+/// 7u(Σ|aⱼ|tʲ + |q|) in each coordinate: once in the distance itself, and once more in the curve whose stationary points are looked for,
+/// which is off by as much.
 fn horner_noise(b: &PowerBasis<f64>, q: &Point<f64>, t: f64) -> f64 {
     let [a1, a2, a3] = &b.a;
     let moduli = |[c0, c1, c2, c3]: [f64; 4]| c0.abs() + t * (c1.abs() + t * (c2.abs() + t * c3.abs()));

@@ -235,7 +235,7 @@ impl<S: Scalar, const N: usize> Polynomial<S, N> {
 
     /// Roots in [lo, hi], 0 ≤ lo < hi ≤ ∞, p(0) ≠ 0.
     fn certified_positive(&self, lo: &S, hi: &S) -> CertifiedRoots<S, N> {
-        let border = border::<S>();
+        let border = border(self);
         let mut roots = CertifiedRoots::new();
         if *lo < border {
             self.prove(lo.clone(), hi.clone().min(border.clone()), &mut roots);
@@ -410,6 +410,20 @@ mod tests {
             (parity(Holds::Unknown, Holds::One), parity(Holds::Odd, Holds::Unknown)),
             (Holds::Unknown, Holds::Unknown)
         );
+    }
+
+    /// Two roots 2e-15 apart in an interval whose middles have to be rounded after 26 halvings: brackets have opposite signs at their ends
+    /// all the same.
+    #[test]
+    fn a_bracket_is_where_its_piece_is() {
+        let p = Polynomial::new([0.24969488382342317_f64, -31.941421508790878, 1020.2514648437499, 79.9375, 1.0]);
+        let mut roots = CertifiedRoots::new();
+        p.prove(0.0, 0.0625 * (1.0 + 2.0_f64.powi(-26)), &mut roots);
+        assert_eq!(roots.len(), 2, "{roots:?}");
+        for root in roots {
+            let signs = [&root.lower, &root.upper].map(|end| twofold::sign(&p, end));
+            assert!(matches!(root.holds, Holds::One | Holds::Odd) && signs[0] * signs[1] < 0, "{root:?}: {signs:?}");
+        }
     }
 
     #[test]

@@ -13,10 +13,23 @@ use arrayvec::ArrayVec;
 use core::array::from_fn;
 use core::fmt;
 
-/// Intervals up to here are searched directly, the rest through reciprocals. Some number near 1 that nobody has a root at: one
-/// there would be found from both sides, which costs time. Of few digits, so that [0, border] is halved exactly for long.
-pub(super) fn border<S: Scalar>() -> S {
-    S::int(1397).mul_pow2(-10)
+/// Intervals up to here are searched directly, the rest through reciprocals. A root there would be found from both sides, and the noise
+/// around a cluster would be cut in two: so it is the first of three numbers where p is well above its rounding errors, or the one where it
+/// is most. They have few digits, so that [0, border] is halved exactly for long.
+pub(super) fn border<S: Scalar, const N: usize>(p: &Polynomial<S, N>) -> S {
+    let clear = S::one().mul_pow2(-(S::BITS / 4).cast_signed());
+    let mut best = (S::one(), -S::one());
+    for numerator in [1397, 1213, 1657] {
+        let place = S::int(numerator).mul_pow2(-10);
+        let share = p.eval(&place).abs() / &p.magnitude(&place);
+        if share > best.1 {
+            best = (place, share);
+        }
+        if best.1 >= clear {
+            break;
+        }
+    }
+    best.0
 }
 
 /// What is known about the roots in a bracket.
@@ -254,7 +267,7 @@ fn search_positive<S: Scalar, const N: usize>(
     width: &S,
     roots: &mut Roots<S, N>,
 ) {
-    if hi <= border() {
+    if hi <= S::one() || hi <= border(p) {
         search(p, Piece::seated(p, lo, hi, Given::Rounded), Given::Rounded, width, roots);
     } else {
         search_beyond(p, (lo, hi), width, roots);
@@ -269,8 +282,7 @@ fn search_beyond<S: Scalar, const N: usize>(
     width: &S,
     roots: &mut Roots<S, N>,
 ) {
-    let border = border::<S>();
-    let one = S::one();
+    let (border, one) = (border(p), S::one());
     let mut near = Roots::new();
     if lo < border {
         search(p, Piece::seated(p, lo.clone(), border.clone(), Given::Rounded), Given::Rounded, width, &mut near);
@@ -286,33 +298,14 @@ fn search_beyond<S: Scalar, const N: usize>(
         search(&reversed, piece, Given::Rounded, width, &mut far);
     }
     let reciprocal = |t: &S| (one.clone() / t).clamp(lo.clone(), hi.clone());
-    let mut far = far
-        .into_iter()
-        .rev()
-        .filter(|r| !r.value.is_zero())
-        .map(|r| Root {
-            value: reciprocal(&r.value),
-            lower: reciprocal(&r.upper),
-            upper: if r.lower.is_zero() { hi.clone() } else { reciprocal(&r.lower) },
-            kind: r.kind,
-        })
-        .peekable();
+    let mut far = far.into_iter().rev().filter(|r| !r.value.is_zero()).map(|r| Root {
+        value: reciprocal(&r.value),
+        lower: reciprocal(&r.upper),
+        upper: if r.lower.is_zero() { hi.clone() } else { reciprocal(&r.lower) },
+        kind: r.kind,
+    });
     // a root at the border, found from both sides, is one root
     let mut first_far = far.next();
-    if let (Some(left), Some(right)) = (near.last(), &first_far)
-        && (left.kind != RootKind::Simple || right.kind != RootKind::Simple)
-        && (left.upper >= border) != (right.lower <= border)
-    {
-        // Noise around a multiple root on one side reaches the border, and goes on beyond: once more, on both together and as far
-        // to the other side.
-        let before = near.iter().rev().nth(1).map_or_else(|| lo.clone(), |root| root.upper.clone());
-        let behind = far.peek().map_or_else(|| hi.clone(), |root| root.lower.clone());
-        let from = left.lower.clone().min(left.value.clone().twice() - &right.upper).max(before);
-        let to = right.upper.clone().max(right.value.clone().twice() - &left.lower).min(behind).min(S::int(2));
-        near.pop();
-        first_far = None;
-        search(p, Piece::seated(p, from, to, Given::Rounded), Given::Rounded, width, &mut near);
-    }
     if let (Some(left), Some(right)) = (near.last_mut(), &first_far)
         && left.upper >= border
         && right.lower <= border

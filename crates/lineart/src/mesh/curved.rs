@@ -37,6 +37,8 @@ pub struct Bent {
 /// Bends the triangles of a mesh to the curves of its lines.
 pub fn bend(mesh: &Mesh, drawn: &Drawn, paths: &[DrawingPath]) -> Bent {
     let mut points = mesh.points.clone();
+    // What the door of the kernel takes for the rounding of coordinates.
+    let noise = 2.0 * f64::EPSILON * points.iter().fold(0.0, |most: f64, p| most.max(p.x.abs()).max(p.y.abs()));
     // The curve of each border, from its first end to its second, by its vertices.
     let mut pieces: Vec<([u32; 2], Vec<Cubic<f64>>)> = Vec::new();
     for border in &mesh.borders {
@@ -55,6 +57,8 @@ pub fn bend(mesh: &Mesh, drawn: &Drawn, paths: &[DrawingPath]) -> Bent {
             parameter
         });
         let mut cubics: Vec<Cubic<f64>> = track.cubics(u.min(v), u.max(v)).collect();
+        // A closing line may be nothing but the rounding of its ends: no triangle has a side there.
+        cubics.retain(|cubic| cubic.points.iter().any(|p| p.distance(cubic.start()) > noise));
         if u > v {
             cubics.reverse();
             cubics.iter_mut().for_each(|cubic| *cubic = cubic.reversed());

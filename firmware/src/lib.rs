@@ -4,39 +4,34 @@
 //! The same code runs on the chip (`src/bin/controller.rs`) and on the host (`src/bin/host.rs`); the kernel uses only
 //! + − × ÷ √ and comparisons, so both give the same samples and the same steps to the bit.
 //!
-//! A job goes through two functions. [`receive`] reads it, checks it and makes the curve; its scratch memory is free
-//! afterwards and may be the same bytes as [`MedialMemory`]. [`draw`] computes the medial polylines and their index, and
-//! then draws. Every loop is bounded by the job; every failure is a [`Fault`], after which the next job can be received.
-//!
-//! A controller that gets lfs from its host does the same with [`table::receive`] and [`table::draw`], in a third of the
-//! memory and less than half of the flash.
+//! A job ([`stream`]) is the curve as its host's door made it, with places along it where lfs is to be known. A controller
+//! that computes lfs ([`own`]) walks around the medial axis once and lets every edge of it lower the values of the places
+//! that it is nearer to; one that gets lfs from its host ([`table`]) reads them. Both then sample from the same table, with
+//! the same code. Every loop is bounded by the job; every failure is a [`Fault`], after which the next job can be received.
 #![no_std]
 #![deny(unsafe_code)]
 
 #[allow(unsafe_code, reason = "each use is explained there")]
 pub mod memory;
+pub mod own;
+pub mod stream;
 pub mod table;
 
-use feature_sampling::bezier::Cubic;
-use feature_sampling::buffer::{BufferFull, Forget, SliceStore, Store};
-use feature_sampling::curve::contact::{self, Contact};
-use feature_sampling::curve::door::{self, CurveBuffers, CurveError, DoorOptions, Entered, PathInput};
-use feature_sampling::curve::{Arc, Curve, Path, Segment};
-use feature_sampling::geometry::hierarchy::{Item, Node, nodes_for};
-use feature_sampling::geometry::{Aabb, Point};
+use feature_sampling::buffer::BufferFull;
+use feature_sampling::curve::Curve;
+use feature_sampling::geometry::hierarchy::nodes_for;
 use feature_sampling::lfs::FeatureSize;
-use feature_sampling::lfs::compact::{Block, Blocks, CompactIndex, boxes_for};
-use feature_sampling::medial::uniform::{Progress, UniformWalk};
+use feature_sampling::lfs::table::{Column, LfsTable};
 use feature_sampling::sampling::resumable::{Resumable, Step};
 use feature_sampling::sampling::{Condition, Sample, SamplingError, SamplingOptions};
-use fsample_job::{Command, Decoder, JobError, JobOptions, LEAF};
+use fsample_job::{JobError, JobOptions, LEAF, expand};
 use fsample_planner::{Limits, MotorStep, PlanError, Planner};
 
-/// Cubics that a job may have.
+/// Cubics that a drawing may have.
 pub const CUBICS: usize = 200;
 /// Paths that a job may have.
 pub const PATHS: usize = 48;
-/// Segments of C: closing lines and splits at cusps come on top of the cubics.
+/// Segments of C, the cubics of a job: closing lines and splits at cusps come on top of the drawing's.
 pub const SEGMENTS: usize = CUBICS + 4;
 /// Arcs.
 pub const ARCS: usize = 6 * CUBICS;
@@ -46,12 +41,8 @@ pub const LEAVES: usize = ARCS.div_ceil(LEAF as usize);
 pub const NODES: usize = nodes_for(LEAVES);
 /// Places where the job touches itself.
 pub const CONTACTS: usize = 96;
-/// Blocks of up to 48 medial points of the whole job.
-pub const BLOCKS: usize = 336;
-/// Boxes over them.
-pub const BOXES: usize = boxes_for(BLOCKS);
-/// Scratch entries: one a segment or two a path.
-pub const ORDER: usize = SEGMENTS;
+/// Places along the job's cubics where lfs is known.
+pub const VALUES: usize = 24 * CUBICS;
 
 /// Ticks a second of the timer that times motor steps.
 pub const CLOCK: f32 = 84_000_000.0;
@@ -61,10 +52,10 @@ pub const CLOCK: f32 = 84_000_000.0;
 pub enum Fault {
     /// The stream is no job.
     Job(JobError),
-    /// More cubics, paths, arcs, touchings or medial points than there is memory for.
+    /// More cubics, paths, arcs, touchings or places than there is memory for.
     Memory,
-    /// What the job draws is no curve.
-    Curve(CurveError),
+    /// The job draws nothing.
+    Empty,
     /// The sampler refused its options or its limit.
     Sampling(SamplingError),
     /// A point or a limit that the motors cannot follow.
@@ -78,9 +69,7 @@ impl Fault {
         match self {
             Self::Job(error) => 0x100 | error.code() as u32,
             Self::Memory => 0x200,
-            Self::Curve(CurveError::Empty) => 0x301,
-            Self::Curve(CurveError::NoExtent) => 0x302,
-            Self::Curve(_) => 0x300,
+            Self::Empty => 0x300,
             Self::Sampling(_) => 0x400,
             Self::Motion(_) => 0x500,
         }
@@ -99,55 +88,10 @@ impl From<PlanError> for Fault {
     }
 }
 
-/// Memory for the curve; each slice has as many entries as the constant of its name.
-#[derive(Debug)]
-pub struct CurveMemory<'a> {
-    /// [`SEGMENTS`].
-    pub segments: &'a mut [Segment<f32>],
-    /// [`PATHS`].
-    pub paths: &'a mut [Path],
-    /// [`ARCS`].
-    pub arcs: &'a mut [Arc<f32>],
-    /// [`NODES`].
-    pub nodes: &'a mut [Node<f32>],
-}
-
-/// Memory that [`receive`] needs and that is free afterwards.
-#[derive(Debug)]
-pub struct Scratch<'a> {
-    /// [`CUBICS`].
-    pub cubics: &'a mut [Cubic<f32>],
-    /// [`PATHS`]: the number of cubics, and whether the path is closed.
-    pub lengths: &'a mut [(u32, bool)],
-    /// [`LEAVES`].
-    pub items: &'a mut [Item<f32>],
-    /// [`ORDER`].
-    pub order: &'a mut [u32],
-}
-
-/// Memory for lfs.
-#[derive(Debug)]
-pub struct MedialMemory<'a> {
-    /// [`CONTACTS`].
-    pub contacts: &'a mut [Contact<f32>],
-    /// [`BLOCKS`].
-    pub blocks: &'a mut [Block<f32>],
-    /// [`BOXES`].
-    pub boxes: &'a mut [Aabb<f32>],
-}
-
-/// What [`receive`] found: how much of its memory the curve takes, and what the job asks for.
-#[derive(Clone, Debug)]
-pub struct Received {
-    options: JobOptions,
-    entered: Entered<f32>,
-    counts: [usize; 4],
-}
-
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
-    /// A turn of the medial walk: a foot point with its disk, mostly.
+    /// A turn of the medial walk: mostly a foot point with its disk, and the places that its edge is near to.
     Foot,
     /// A call of the sampler.
     Sampler,
@@ -157,8 +101,8 @@ pub enum Work {
     Line,
     /// The touchings of one segment.
     Contacts,
-    /// The index over the medial polylines.
-    Index,
+    /// Joints, strands and the hierarchy, once the whole curve is there.
+    Curve,
 }
 
 impl Work {
@@ -187,10 +131,10 @@ pub struct Totals {
     pub segments: u32,
     /// Arcs of C.
     pub arcs: u32,
-    /// Medial points; values of lfs, where the host has sent them.
+    /// Medial points; none where the host has computed lfs.
     pub medial: u32,
-    /// Blocks that hold them.
-    pub blocks: u32,
+    /// Places where lfs is known.
+    pub values: u32,
     /// Samples.
     pub samples: u32,
     /// Calls of the sampler.
@@ -199,53 +143,12 @@ pub struct Totals {
     pub steps: u32,
 }
 
-/// Reads a whole job and makes its curve. Nothing moves before the checksum has been found to hold.
-///
-/// # Errors
-/// See [`Fault`]. The memory is then of no use, and free for the next job.
-pub fn receive(
-    bytes: impl Iterator<Item = u8>,
-    memory: &mut CurveMemory<'_>,
-    scratch: Scratch<'_>,
-) -> Result<Received, Fault> {
-    let mut lengths = SliceStore::new(scratch.lengths);
-    let options = read(bytes, scratch.cubics, &mut lengths)?;
-    let cubics: &[Cubic<f32>] = scratch.cubics;
-    let mut buffers = CurveBuffers {
-        segments: SliceStore::new(&mut *memory.segments),
-        sources: Forget,
-        paths: SliceStore::new(&mut *memory.paths),
-        arcs: SliceStore::new(&mut *memory.arcs),
-        nodes: SliceStore::new(&mut *memory.nodes),
-        items: SliceStore::new(scratch.items),
-        order: SliceStore::new(scratch.order),
-    };
-    let input = lengths.items().iter().scan(0_usize, |from, &(count, closed)| {
-        let to = *from + count as usize;
-        let cubics = cubics.get(*from..to).unwrap_or_default();
-        *from = to;
-        Some(PathInput { closed, cubics })
-    });
-    let door = DoorOptions { leaf: LEAF, ..DoorOptions::default() };
-    let entered = door::enter(input, &door, &mut buffers).map_err(|error| match error {
-        CurveError::Full(_) => Fault::Memory,
-        error => Fault::Curve(error),
-    })?;
-    let counts = [
-        buffers.segments.items().len(),
-        buffers.paths.items().len(),
-        buffers.arcs.items().len(),
-        buffers.nodes.items().len(),
-    ];
-    Ok(Received { options, entered, counts })
-}
-
-/// The bounds of a job; ε is lowered by what lfs on the chip may be too large by.
+/// The bounds of a job.
 #[must_use]
 pub fn sampling_options(options: &JobOptions) -> SamplingOptions<f32> {
     let some = |v: f32| (v > 0.0).then_some(v);
     SamplingOptions {
-        condition: Condition::Epsilon(options.epsilon / (1.0 + options.eta)),
+        condition: Condition::Epsilon(options.epsilon),
         chord_error: some(options.chord_error),
         min_distance: some(options.min_distance),
         max_distance: some(options.max_distance),
@@ -258,73 +161,11 @@ pub fn sampling_options(options: &JobOptions) -> SamplingOptions<f32> {
 /// Turns of the sampler in one call, in the images: at most five look-ups of lfs.
 pub const TURNS: u32 = 4;
 
-/// Computes lfs of a received job and draws it. `budget` is the number of turns of a call of the sampler.
-///
-/// # Errors
-/// See [`Fault`].
-pub fn draw(
-    received: &Received,
-    memory: &CurveMemory<'_>,
-    medial: MedialMemory<'_>,
-    budget: u32,
-    listener: &mut impl Listener,
-) -> Result<Totals, Fault> {
-    let Received { options, entered, counts } = received;
-    let [segments, paths, arcs, nodes] = *counts;
-    let curve = Curve {
-        segments: memory.segments.get(..segments).unwrap_or_default(),
-        sources: &[],
-        paths: memory.paths.get(..paths).unwrap_or_default(),
-        arcs: memory.arcs.get(..arcs).unwrap_or_default(),
-        nodes: memory.nodes.get(..nodes).unwrap_or_default(),
-        leaf: entered.leaf,
-        diagonal: &entered.diagonal,
-        noise: &entered.noise,
-    };
-    let mut contacts = SliceStore::new(medial.contacts);
-    for (segment, _) in (0_u32..).zip(curve.segments) {
-        listener.before();
-        contact::find(&curve, segment, &mut contacts)?;
-        listener.after(Work::Contacts);
-    }
-    let contacts: &[Contact<f32>] = contacts.into_items();
-
-    let mut feet = Blocks::new(medial.blocks, options.resolution());
-    let mut line = 0;
-    for (path, _) in (0_u32..).zip(curve.paths) {
-        let mut walk = UniformWalk::new(&curve, path, u32::from(options.foot_points), contacts, line);
-        // Every turn gets on; the path ends it.
-        loop {
-            listener.before();
-            let progress = walk.step(1, &mut feet)?;
-            listener.after(Work::Foot);
-            if progress == Progress::Done {
-                break;
-            }
-        }
-        line = walk.polyline();
-    }
-    let points = feet.taken();
-    let blocks: &[Block<f32>] = feet.finish()?;
-    listener.before();
-    let index = CompactIndex::build(blocks, medial.boxes)?;
-    listener.after(Work::Index);
-
-    let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let totals = Totals {
-        segments: count(segments),
-        arcs: count(arcs),
-        medial: points,
-        blocks: count(blocks.len()),
-        ..Totals::default()
-    };
-    draw_paths(&curve, &index, options, budget, totals, listener)
-}
-
-/// Draws all paths of a curve.
+/// Draws all paths of a curve. `value` is the list of all values of lfs, which are divided by 1 + η.
 fn draw_paths(
     curve: &Curve<'_, f32>,
-    features: &impl FeatureSize<f32>,
+    columns: &[Column],
+    value: impl Fn(u32) -> u16,
     options: &JobOptions,
     budget: u32,
     totals: Totals,
@@ -338,9 +179,11 @@ fn draw_paths(
         clock: CLOCK,
     })?;
     let sampling = sampling_options(options);
+    let share = 1.0 / (1.0 + options.eta);
+    let features = LfsTable::new(curve, columns, |k| expand(value(k)) * share);
     let mut pen = Pen { planner, listener, totals };
     for (path, p) in (0_u32..).zip(curve.paths) {
-        pen.path(Resumable::new(curve, features, path, &sampling).map_err(Fault::Sampling)?, budget, p.closed)?;
+        pen.path(Resumable::new(curve, &features, path, &sampling).map_err(Fault::Sampling)?, budget, p.closed)?;
     }
     Ok(pen.totals)
 }
@@ -418,45 +261,4 @@ impl<L: Listener> Pen<'_, L> {
         self.listener.motor(step);
         true
     }
-}
-
-/// Reads the whole stream into the scratch memory.
-fn read(
-    bytes: impl Iterator<Item = u8>,
-    cubics: &mut [Cubic<f32>],
-    lengths: &mut SliceStore<'_, (u32, bool)>,
-) -> Result<JobOptions, Fault> {
-    let mut decoder = Decoder::new();
-    let mut options = None;
-    let (mut count, mut here) = (0_usize, Point::new(0.0, 0.0));
-    for byte in bytes {
-        let curve = match decoder.push(byte).map_err(Fault::Job)? {
-            None => continue,
-            // The stream of a serial line goes on: the job ends here.
-            Some(Command::End) => break,
-            Some(Command::Options(given)) => {
-                options = Some(given);
-                continue;
-            }
-            Some(Command::Begin { at: [x, y], closed }) => {
-                here = Point::new(x, y);
-                lengths.push((0, closed))?;
-                continue;
-            }
-            // lfs for another kind of controller: η was measured for that one.
-            Some(Command::Table { .. } | Command::Values(_)) => return Err(Fault::Job(JobError::Order)),
-            Some(Command::Line([x, y])) => Cubic::line(here, Point::new(x, y)),
-            Some(Command::Cubic([a, b, c, d, e, f])) => {
-                Cubic::new(here, Point::new(a, b), Point::new(c, d), Point::new(e, f))
-            }
-        };
-        here = *curve.end();
-        *cubics.get_mut(count).ok_or(Fault::Memory)? = curve;
-        count += 1;
-        if let Some((length, _)) = lengths.items_mut().last_mut() {
-            *length += 1;
-        }
-    }
-    decoder.finish().map_err(Fault::Job)?;
-    options.ok_or(Fault::Job(JobError::Order))
 }

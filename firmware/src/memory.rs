@@ -1,49 +1,37 @@
-//! The one place of the controller's library with `unsafe`: memory for a job as one block that is used twice.
-//!
-//! What a job needs while it is received and what it needs while it is drawn may be the same bytes, beside those of the curve.
+//! The one place of the controller's library with `unsafe`: memory for a job as one block, of which a part is used twice.
 
-use crate::{
-    ARCS, Arc, BLOCKS, BOXES, Block, CONTACTS, CUBICS, Contact, Cubic, CurveMemory, Fault, Item, LEAVES, Listener,
-    MedialMemory, NODES, Node, ORDER, PATHS, Path, SEGMENTS, Scratch, Segment, Totals, draw, receive, table,
-};
+use crate::own::{self, MedialMemory};
+use crate::stream::JobMemory;
+use crate::{ARCS, CONTACTS, Fault, LEAVES, Listener, NODES, PATHS, SEGMENTS, Totals, VALUES, table};
 use core::mem::{ManuallyDrop, MaybeUninit};
-use feature_sampling::geometry::Aabb;
+use feature_sampling::curve::contact::Contact;
+use feature_sampling::curve::{Arc, Path, Segment};
+use feature_sampling::geometry::hierarchy::{Item, Node};
 use feature_sampling::lfs::table::Column;
 
-/// Memory of the curve, alive through the whole job.
-struct Lasting {
+/// The same bytes, first while the hierarchy is built and then for the values.
+union Phase {
+    #[allow(dead_code, reason = "its size and place are used")]
+    items: ManuallyDrop<[Item<f32>; LEAVES]>,
+    #[allow(dead_code, reason = "its size and place are used")]
+    values: ManuallyDrop<[u16; VALUES]>,
+}
+
+/// What a job keeps whose lfs is computed here.
+struct Own {
     segments: [Segment<f32>; SEGMENTS],
+    columns: [Column; SEGMENTS],
     paths: [Path; PATHS],
     arcs: [Arc<f32>; ARCS],
     nodes: [Node<f32>; NODES],
-}
-
-/// Memory while a job is received.
-struct Receiving {
-    cubics: [Cubic<f32>; CUBICS],
-    lengths: [(u32, bool); PATHS],
-    items: [Item<f32>; LEAVES],
-    order: [u32; ORDER],
-}
-
-/// Memory while it is drawn.
-struct Drawing {
+    most: [f32; NODES],
     contacts: [Contact<f32>; CONTACTS],
-    blocks: [Block<f32>; BLOCKS],
-    boxes: [Aabb<f32>; BOXES],
-}
-
-/// The same bytes, first for the one and then for the other.
-union Phase {
-    #[allow(dead_code, reason = "its size and place are used")]
-    receiving: ManuallyDrop<Receiving>,
-    #[allow(dead_code, reason = "its size and place are used")]
-    drawing: ManuallyDrop<Drawing>,
+    phase: Phase,
 }
 
 /// Memory for one job.
 #[derive(Debug)]
-pub struct Memory(MaybeUninit<(Lasting, Phase)>);
+pub struct Memory(MaybeUninit<Own>);
 
 impl Memory {
     /// Nothing is written before a job runs.
@@ -63,31 +51,25 @@ impl Memory {
         listener: &mut impl Listener,
     ) -> Result<Totals, Fault> {
         let all = self.0.as_mut_ptr();
-        // SAFETY: places inside memory that is borrowed for as long as this runs; each field is lent once. The slices of the
-        // union's first half are gone when those of its second are made: `receive` answers with nothing that borrows them.
+        // SAFETY: places inside memory that is borrowed for as long as this runs; each field is lent once. The slice of the
+        // union's first half is gone when that of its second is made: `receive` answers with nothing that borrows it.
         unsafe {
-            let (lasting, phase) = (&raw mut (*all).0, &raw mut (*all).1);
-            let mut curve = CurveMemory {
-                segments: fresh(&raw mut (*lasting).segments),
-                paths: fresh(&raw mut (*lasting).paths),
-                arcs: fresh(&raw mut (*lasting).arcs),
-                nodes: fresh(&raw mut (*lasting).nodes),
+            let job = JobMemory {
+                segments: fresh(&raw mut (*all).segments),
+                columns: fresh(&raw mut (*all).columns),
+                paths: fresh(&raw mut (*all).paths),
+                arcs: fresh(&raw mut (*all).arcs),
+                values: &mut [],
             };
-            let receiving = phase.cast::<Receiving>();
-            let scratch = Scratch {
-                cubics: fresh(&raw mut (*receiving).cubics),
-                lengths: fresh(&raw mut (*receiving).lengths),
-                items: fresh(&raw mut (*receiving).items),
-                order: fresh(&raw mut (*receiving).order),
-            };
-            let received = receive(bytes, &mut curve, scratch)?;
-            let drawing = phase.cast::<Drawing>();
+            let phase = &raw mut (*all).phase;
+            let items = fresh(phase.cast::<[Item<f32>; LEAVES]>());
+            let received = own::receive(bytes, job, fresh(&raw mut (*all).nodes), items, listener)?;
             let medial = MedialMemory {
-                contacts: fresh(&raw mut (*drawing).contacts),
-                blocks: fresh(&raw mut (*drawing).blocks),
-                boxes: fresh(&raw mut (*drawing).boxes),
+                contacts: fresh(&raw mut (*all).contacts),
+                values: fresh(phase.cast::<[u16; VALUES]>()),
+                most: fresh(&raw mut (*all).most),
             };
-            draw(&received, &curve, medial, budget, listener)
+            own::draw(&received, medial, budget, listener)
         }
     }
 }
@@ -98,7 +80,7 @@ impl Default for Memory {
     }
 }
 
-/// Memory for one job that brings its lfs along ([`table`]).
+/// Memory for one job that brings its lfs along.
 #[derive(Debug)]
 pub struct TableMemory(MaybeUninit<Given>);
 
@@ -107,7 +89,7 @@ struct Given {
     segments: [Segment<f32>; SEGMENTS],
     columns: [Column; SEGMENTS],
     paths: [Path; PATHS],
-    values: [u16; table::VALUES],
+    values: [u16; VALUES],
 }
 
 impl TableMemory {
@@ -130,10 +112,11 @@ impl TableMemory {
         let all = self.0.as_mut_ptr();
         // SAFETY: places inside memory that is borrowed for as long as this runs; each field is lent once.
         let memory = unsafe {
-            table::TableMemory {
+            JobMemory {
                 segments: fresh(&raw mut (*all).segments),
                 columns: fresh(&raw mut (*all).columns),
                 paths: fresh(&raw mut (*all).paths),
+                arcs: &mut [],
                 values: fresh(&raw mut (*all).values),
             }
         };

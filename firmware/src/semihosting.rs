@@ -183,7 +183,7 @@ extern "C" fn start() -> ! {
         channel.flush();
         match done {
             Ok(t) => {
-                channel.line(b'e', &[t.segments, t.arcs, t.medial, t.blocks, t.samples, t.calls, t.steps]);
+                channel.line(b'e', &[t.segments, t.arcs, t.medial, t.values, t.samples, t.calls, t.steps]);
                 channel.line(b'w', &channel.worst);
                 channel.line(b't', &channel.total);
                 channel.line(b'm', &[deep, board::BYTES as u32]);

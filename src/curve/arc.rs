@@ -6,9 +6,10 @@
 //! chord's length away, a linear function has one maximum on it at most. That makes the search for the disk it bounds short;
 //! its result does not depend on it ([`crate::medial::disk`]; `docs/mathematics.md`, section 5).
 
-use super::Segment;
+use super::{Segment, index_of};
 use crate::bezier::critical;
 use crate::buffer::{BufferFull, Keep, Store};
+use crate::geometry::hierarchy::{self, Item, Node};
 use crate::geometry::{Aabb, Point, distance_sq_to_segment};
 use crate::order::sort;
 use crate::scalar::Scalar;
@@ -31,13 +32,11 @@ type Cuts<S> = ArrayVec<S, 8>;
 
 /// Appends the arcs of a segment, without turning (which depends on the strand).
 ///
+/// Cuts are inflections and vertices, to the attainable error of the root finder, and then middles of parameters.
+///
 /// # Errors
 /// [`BufferFull`] where `arcs` cannot take them.
-pub(super) fn cut<S: Scalar>(
-    index: u32,
-    segment: &Segment<S>,
-    arcs: &mut impl Store<Arc<S>>,
-) -> Result<(), BufferFull> {
+pub fn cut<S: Scalar>(index: u32, segment: &Segment<S>, arcs: &mut impl Store<Arc<S>>) -> Result<(), BufferFull> {
     let mut cuts: Cuts<S> = ArrayVec::new();
     let margin = S::unit_roundoff().mul_pow2(8);
     let inside = |t: &S| *t > margin && *t < S::one() - &margin;
@@ -85,6 +84,29 @@ fn halve<S: Scalar>(
         }
     }
     Ok(())
+}
+
+/// The hierarchy over arcs, of which `leaf` in a row share a leaf; `items` is scratch, one entry a leaf.
+///
+/// # Errors
+/// [`BufferFull`] where a store cannot take its entries.
+pub(super) fn enclose<S: Scalar>(
+    segments: &[Segment<S>],
+    arcs: &[Arc<S>],
+    leaf: u32,
+    items: &mut impl Store<Item<S>>,
+    nodes: &mut impl Store<Node<S>>,
+) -> Result<(), BufferFull> {
+    for (i, chunk) in arcs.chunks(leaf.max(1) as usize).enumerate() {
+        let mut bounds = Aabb::empty();
+        for arc in chunk {
+            if let Some(s) = segments.get(arc.segment as usize) {
+                bounds.merge(&arc.bounds(s));
+            }
+        }
+        items.push(Item { bounds, index: index_of(i) })?;
+    }
+    hierarchy::build(items.items_mut(), nodes)
 }
 
 impl<S: Scalar> Arc<S> {

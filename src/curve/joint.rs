@@ -4,6 +4,7 @@
 //! of three or more it is a corner (a junction). Lists carry no geometry but the unit direction in which each end's branch
 //! leaves the joint: that is all that fans, cones and walks around the curve need.
 
+use super::Segment;
 use crate::geometry::Vector;
 use crate::scalar::Scalar;
 
@@ -66,6 +67,21 @@ pub struct JointEnd<S> {
 /// Walks a circular list once, `first` first. `next` follows the list; a list that is broken ends the walk.
 pub(super) fn members(first: EndId, next: impl Fn(EndId) -> Option<EndId>) -> impl Iterator<Item = EndId> {
     core::iter::successors(Some(first), move |&e| next(e).filter(|&n| n != first))
+}
+
+/// An end by its number.
+pub(super) fn end_ref<S>(segments: &[Segment<S>], e: EndId) -> Option<&JointEnd<S>> {
+    segments.get(e.segment() as usize).and_then(|s| s.ends.get(e.side()))
+}
+
+/// An end by its number, to change.
+pub(super) fn end_mut<S>(segments: &mut [Segment<S>], e: EndId) -> Option<&mut JointEnd<S>> {
+    segments.get_mut(e.segment() as usize).and_then(|s| s.ends.get_mut(e.side()))
+}
+
+/// The ends of a joint, this one first.
+pub(super) fn members_of<S>(segments: &[Segment<S>], e: EndId) -> impl Iterator<Item = EndId> + '_ {
+    members(e, |e| end_ref(segments, e).map(|end| end.next))
 }
 
 /// Compares directions by how far one must turn clockwise (from left over ahead to right) from a reference direction.

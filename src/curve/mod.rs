@@ -20,6 +20,7 @@ pub mod given;
 pub mod ideal;
 pub mod joint;
 pub mod nearest;
+mod strands;
 mod twin;
 
 use crate::bezier::{Cubic, PowerBasis};
@@ -268,6 +269,11 @@ impl<'a, S: Scalar> Curve<'a, S> {
     pub fn point(&self, at: &CurveParam<S>) -> Option<Point<S>> {
         self.segment(at.segment).map(|s| s.point(&at.t))
     }
+}
+
+/// An index below 2^31 as u32; larger counts were refused before.
+fn index_of(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
 }
 
 /// An end; that of a twin as the same end of the segment that stands for it.

@@ -36,6 +36,24 @@ pub(super) fn mark<S: Scalar>(segments: &mut [Segment<S>], order: &mut [u32]) {
     }
 }
 
+/// A twin is the same curve as the segment that stands for it, to the bit, and its ends are of the same kinds.
+pub(super) fn follow<S: Scalar>(segments: &mut [Segment<S>]) {
+    for i in 0..segments.len() {
+        let Some(t) = segments.get(i).and_then(|s| s.twin) else { continue };
+        let Some(leader) = segments.get(t.segment() as usize) else { continue };
+        let (cubic, ends) = if t.reversed() {
+            let [a, b] = leader.ends.clone();
+            (leader.cubic.reversed(), [b, a])
+        } else {
+            (leader.cubic.clone(), leader.ends.clone())
+        };
+        if let Some(s) = segments.get_mut(i) {
+            s.cubic = cubic;
+            s.ends = ends;
+        }
+    }
+}
+
 fn compare_points<S: Scalar>(a: &Point<S>, b: &Point<S>) -> Ordering {
     let by = |x: &S, y: &S| x.partial_cmp(y).unwrap_or(Ordering::Equal);
     by(&a.x, &b.x).then(by(&a.y, &b.y))

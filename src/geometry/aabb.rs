@@ -66,6 +66,15 @@ impl<S: Scalar> Aabb<S> {
         dx.square() + &dy.square()
     }
 
+    /// Squared distance from one box to another, 0 where they meet; infinite where one is empty.
+    #[inline]
+    pub fn gap_sq(&self, other: &Self) -> S {
+        let zero = S::zero();
+        let dx = (self.min.x.clone() - &other.max.x).max(other.min.x.clone() - &self.max.x).max(zero.clone());
+        let dy = (self.min.y.clone() - &other.max.y).max(other.min.y.clone() - &self.max.y).max(zero);
+        dx.square() + &dy.square()
+    }
+
     /// From corner to corner.
     #[inline]
     pub fn extent(&self) -> Vector<S> {

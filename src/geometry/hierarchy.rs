@@ -99,6 +99,21 @@ pub fn build<S: Scalar>(items: &mut [Item<S>], nodes: &mut impl Store<Node<S>>) 
     Ok(())
 }
 
+/// What is below a node.
+pub(crate) enum Below {
+    /// An item.
+    Item(u32),
+    /// The indices of two nodes, both larger than its own.
+    Nodes([u32; 2]),
+}
+
+impl<S> Node<S> {
+    /// What is below this node, whose index is `i`.
+    pub(crate) const fn below(&self, i: u32) -> Below {
+        if self.right == LEAF { Below::Item(self.item) } else { Below::Nodes([i + 1, self.right]) }
+    }
+}
+
 impl<'a, S: Scalar> Hierarchy<'a, S> {
     /// The tree in these nodes, as [`build`] wrote them.
     pub const fn new(nodes: &'a [Node<S>]) -> Self {

@@ -8,8 +8,8 @@
 //! it is 1-Lipschitz. M' may be empty (a lone straight segment): lfs is then infinite.
 
 pub mod bound;
-pub mod compact;
 pub mod enclose;
+pub mod gather;
 #[cfg(feature = "kiddo")]
 pub mod kd;
 pub mod table;

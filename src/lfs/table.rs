@@ -10,7 +10,8 @@
 //! and at least the answer. The sampler marches by steps that could not pass a zero of |p − s| − ε·g(p), because for its
 //! smaller size they are shorter still, and stops where the condition holds for that smaller size.
 //!
-//! A value of 0 (a corner, a segment without a column) leaves the sampler its floor. A look-up evaluates a cubic twice.
+//! A value of 0 (a corner, a segment without a column) leaves the sampler its floor. A look-up evaluates a cubic twice. On a
+//! twin the column of the segment counts that it repeats. [`super::gather`] fills a table from a medial walk.
 
 use super::FeatureSize;
 use crate::curve::{Curve, CurveParam};
@@ -35,7 +36,7 @@ impl Column {
     }
 
     /// The step that holds a parameter.
-    fn step<S: Scalar>(&self, t: &S) -> u32 {
+    pub(super) fn step<S: Scalar>(&self, t: &S) -> u32 {
         let steps = self.count.saturating_sub(1);
         let at = (t.clone() * &S::int(i32::try_from(steps).unwrap_or(i32::MAX))).to_i64();
         u32::try_from(at.max(0)).unwrap_or(u32::MAX).min(steps.saturating_sub(1))
@@ -65,9 +66,11 @@ impl<'a, S: Scalar, V: Fn(u32) -> S> LfsTable<'a, S, V> {
 
 impl<S: Scalar, V: Fn(u32) -> S> FeatureSize<S> for LfsTable<'_, S, V> {
     fn lfs(&self, at: &CurveParam<S>, p: &Point<S>) -> S {
-        let Some(column) = self.columns.get(at.segment as usize).filter(|c| c.count > 1) else { return S::zero() };
-        let k = column.step(&at.t);
-        let (before, after) = (self.told(at.segment, column, k, p), self.told(at.segment, column, k + 1, p));
+        let twin = self.curve.segment(at.segment).and_then(|s| s.twin);
+        let CurveParam { segment, t } = twin.map_or_else(|| at.clone(), |twin| twin.place(at.t.clone()));
+        let Some(column) = self.columns.get(segment as usize).filter(|c| c.count > 1) else { return S::zero() };
+        let k = column.step(&t);
+        let (before, after) = (self.told(segment, column, k, p), self.told(segment, column, k + 1, p));
         before.max(after).max(S::zero())
     }
 }

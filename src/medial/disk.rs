@@ -180,6 +180,7 @@ pub fn tangent_disk<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>) -> TangentD
 }
 
 /// [`tangent_disk`] for one of a row of neighbouring feet: the same result, found faster.
+#[inline(never)]
 pub fn tangent_disk_beside<S: Scalar>(curve: &Curve<'_, S>, foot: &Foot<S>, guard: &mut Guard<S>) -> TangentDisk<S> {
     let mut search = Search::new(foot);
     let hint = guard.hint.as_ref().map(|h| h.arc);

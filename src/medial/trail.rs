@@ -119,9 +119,14 @@ impl<'c, S: Scalar> Trail<'c, S> {
         out.take(s.vertex(self.polyline))
     }
 
+    /// The disk at a foot.
+    pub(super) fn disk(&mut self, foot: &Foot<S>) -> TangentDisk<S> {
+        tangent_disk_beside(self.curve, foot, &mut self.guard)
+    }
+
     /// Looks at a foot.
     pub(super) fn station(&mut self, foot: Foot<S>) -> Station<S> {
-        let TangentDisk { radius, touch } = tangent_disk_beside(self.curve, &foot, &mut self.guard);
+        let TangentDisk { radius, touch } = self.disk(&foot);
         let touch = touch.and_then(|t| self.curve.point(&t.at).map(|p| (t, p)));
         let centre =
             if radius.is_finite() { foot.point.plus_scaled(&radius, &foot.direction) } else { foot.point.clone() };

@@ -1,26 +1,31 @@
-//! Jobs for a plotter's controller: a drawing as a `.fsj` stream, with the η that makes the chip's samples true.
+//! Jobs for a plotter's controller: a drawing as a `.fsj` stream.
 //!
-//! The chip computes lfs in f32 from a fixed number of foot points a cubic. What that may be too large by is measured here,
-//! by running the same computation in f32 and comparing it with the engine's lfs at four places a foot point on every cubic;
-//! the chip then samples at ε/(1 + η). It is measured at those places, not proved between them.
+//! The host takes the drawing through the door, in f32, and sends the curve C, so that the chip needs no door; and it says at
+//! which places along C lfs is to be known: so many that what a table of lfs says between them is short by an eighth at most,
+//! or lies below the floor.
 //!
-//! A chip that does not compute lfs gets it with the job ([`Lfs::Along`]): values along every cubic of C that are not above the
-//! engine's lfs at their places, so many that what the chip makes of them is short by an eighth at most, or lies below the floor. η is then what is measured of it in the same way, and that is nothing: between the places the
-//! chip's answer is a bound (`feature_sampling::lfs::table`).
+//! A chip that computes lfs does so in f32 from a fixed number of foot points a cubic. The host runs the same computation, to
+//! the bit, and compares each value with the engine's lfs at its place; η is what they are too large by at most, where they are
+//! above the floor. The chip divides its values by 1 + η. Then none is above lfs, and what the table says between the places is a
+//! bound (`feature_sampling::lfs::table`): the places are all there is to check.
+//!
+//! A chip that does not compute lfs gets the values with the job ([`Lfs::Along`]), and η is 0.
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::BufferFull;
 use feature_sampling::curve::door::{DoorOptions, sine_of_degrees};
 use feature_sampling::curve::given::{self, Extent};
-use feature_sampling::curve::{Curve, CurveParam, JointKind, Path, Segment};
-use feature_sampling::geometry::{Aabb, Point};
+use feature_sampling::curve::{Arc, Curve, CurveParam, JointKind, Path, Segment, arc, contact};
+use feature_sampling::geometry::Point;
+use feature_sampling::geometry::hierarchy::Node;
 use feature_sampling::lfs::FeatureSize;
-use feature_sampling::lfs::compact::{Block, Blocks, CompactIndex};
+use feature_sampling::lfs::gather::Gather;
 use feature_sampling::lfs::table::{Column, LfsTable};
-use feature_sampling::medial;
+use feature_sampling::medial::uniform::Progress;
 use feature_sampling::model::CurveModel;
 use fsample_job::{Encoder, JobError, JobOptions, LEAF, expand, reduce};
 use lineart::drawing::Drawing;
+use std::cell::Cell;
 
 use crate::engine::{Bounds, Density, Engine};
 use crate::errors::{Failure, shown};
@@ -28,10 +33,7 @@ use crate::errors::{Failure, shown};
 /// Foot points a cubic where `--steps` does not say.
 const FOOT_POINTS: u32 = 32;
 
-/// The turn from which a joint is a corner, in degrees, where the chip makes the curve: that of its door's defaults.
-const CORNER_ANGLE: f64 = 1.0;
-
-/// Looks between two foot points.
+/// Looks between two places.
 const LOOKS: u32 = 4;
 
 /// Who computes lfs.
@@ -58,10 +60,6 @@ pub(crate) fn bytes(
     if bounds.grading.is_some() || bounds.start != 0.0 {
         return Err(Failure::usage("a job takes neither --grading nor --start"));
     }
-    if lfs == Lfs::OnChip && engine.corner_angle().to_bits() != CORNER_ANGLE.to_bits() {
-        let message = "the chip takes corners from 1 degree on: a job takes --corner-angle only with --with-lfs";
-        return Err(Failure::usage(message));
-    }
     let name = shown(&drawing.source);
     let foot_points = u16::try_from(steps.unwrap_or(FOOT_POINTS)).ok().filter(|n| (1..=1024).contains(n));
     let foot_points = foot_points.ok_or_else(|| Failure::usage("a job takes --steps from 1 to 1024"))?;
@@ -69,22 +67,17 @@ pub(crate) fn bytes(
         drawing.paths.iter().map(|path| (path.closed, path.cubics.iter().map(single).collect())).collect();
     let min_distance = bounds.min_distance.unwrap_or(Engine::diagonal(drawing) / 1000.0);
     let floor = min_distance / epsilon;
-    // As on the chip: the same leaves.
-    let mut door = DoorOptions { leaf: LEAF, ..DoorOptions::default() };
-    if lfs == Lfs::Along {
-        // The chip takes the curve as it is sent.
-        door.corner_sine = rounded(sine_of_degrees(&engine.corner_angle()));
-    }
+    let corner_sine = rounded(sine_of_degrees(&engine.corner_angle()));
+    let door = DoorOptions { corner_sine, ..DoorOptions::default() };
     let input: Vec<(bool, &[Cubic<f32>])> = paths.iter().map(|(closed, cubics)| (*closed, cubics.as_slice())).collect();
     let model = CurveModel::<f32>::new(&input, &door).map_err(|error| Failure::input(&drawing.source, error))?;
-    let full = || Failure::limit(format!("{name}: more medial points than a job may have"));
-    let sent = match lfs {
-        Lfs::OnChip => None,
-        Lfs::Along => Some(Sent::new(&model, engine, steps, floor)),
-    };
-    let eta = match &sent {
-        None => excess(&model, engine, u32::from(foot_points), floor).map_err(|_| full())?,
-        Some(sent) => sent.excess(engine, floor),
+    // `--steps` is the number of foot points, or that of values where there are no foot points.
+    let places = steps.filter(|_| lfs == Lfs::Along);
+    let sent = Sent::new(&model, engine, places, floor, lfs);
+    let full = || Failure::limit(format!("{name}: more arcs or places than a job may have"));
+    let eta = match lfs {
+        Lfs::OnChip => sent.excess(engine, u32::from(foot_points), floor).map_err(|_| full())?,
+        Lfs::Along => 0.0,
     };
     if eta > 1.0 {
         let advice = "raise --steps, or --min-distance above the details that it misses";
@@ -104,28 +97,10 @@ pub(crate) fn bytes(
         steps_per_unit: rounded(80.0 / per_mm),
         foot_points,
     };
-    let count: usize = paths.iter().map(|(_, cubics)| cubics.len()).sum();
-    let mut out = vec![0; 64 + 10 * paths.len() + 25 * count + sent.as_ref().map_or(0, Sent::bytes)];
-    let written = match &sent {
-        None => encode(&mut out, &options, &paths),
-        Some(sent) => sent.encode(&mut out, &options),
-    };
-    let written = written.map_err(|error| Failure::input(&drawing.source, error))?;
+    let mut out = vec![0; 64 + sent.bytes()];
+    let written = sent.encode(&mut out, &options, lfs).map_err(|error| Failure::input(&drawing.source, error))?;
     out.truncate(written);
     Ok(out)
-}
-
-fn encode(out: &mut [u8], options: &JobOptions, paths: &[(bool, Vec<Cubic<f32>>)]) -> Result<usize, JobError> {
-    let mut encoder = Encoder::new(out, options)?;
-    for (closed, cubics) in paths {
-        let Some(first) = cubics.first() else { continue };
-        encoder.begin([first.start().x, first.start().y], *closed)?;
-        for cubic in cubics {
-            let [_, a, b, c] = &cubic.points;
-            encoder.cubic([a.x, a.y, b.x, b.y, c.x, c.y])?;
-        }
-    }
-    encoder.end()
 }
 
 /// Rounded to binary32.
@@ -138,37 +113,12 @@ fn single(cubic: &Cubic<f64>) -> Cubic<f32> {
     Cubic { points: cubic.points.map(|p| Point::new(rounded(p.x), rounded(p.y))) }
 }
 
-/// The largest relative excess of the chip's lfs over the engine's, where lfs is above `floor`, and a little more.
-fn excess(model: &CurveModel<f32>, engine: &Engine<'_>, foot_points: u32, floor: f64) -> Result<f64, BufferFull> {
-    let curve = model.curve();
-    let mut slots = vec![Block::default(); 1 << 16];
-    let mut blocks = Blocks::new(&mut slots, rounded(floor));
-    let mut line = 0;
-    for (path, _) in (0..).zip(curve.paths) {
-        line = medial::walk_uniform(&curve, path, foot_points, model.contacts(), line, &mut blocks)?;
-    }
-    let blocks = blocks.finish()?;
-    let mut boxes = vec![Aabb::default(); blocks.len()];
-    let index = CompactIndex::build(blocks, &mut boxes)?;
-    let mut most = 0.0_f64;
-    let looks = LOOKS * foot_points;
-    for segment in curve.segments {
-        for k in 0..=looks {
-            let p = segment.power.eval(&rounded(f64::from(k) / f64::from(looks)));
-            let truth = engine.lfs(&double(&p));
-            if truth > floor && truth.is_finite() {
-                most = most.max(f64::from(index.distance(&p)) / truth - 1.0);
-            }
-        }
-    }
-    // The engine's own tolerance, and the places between those that were looked at.
-    Ok(most * 1.25 + 0.003)
-}
-
-/// What a chip gets that does not compute lfs: the curve C, and values along it.
+/// What a chip gets: the curve C, the places along it, and what lfs is there.
 struct Sent {
     segments: Vec<Segment<f32>>,
     paths: Vec<Path>,
+    arcs: Vec<Arc<f32>>,
+    nodes: Vec<Node<f32>>,
     columns: Vec<Column>,
     values: Vec<f32>,
     extent: Extent<f32>,
@@ -179,9 +129,8 @@ const STEPS: [u32; 2] = [4, 1024];
 
 impl Sent {
     /// The curve as the chip will have it, and its table: `steps` values a segment, or as many as it takes.
-    fn new(model: &CurveModel<f32>, engine: &Engine<'_>, steps: Option<u32>, floor: f64) -> Self {
-        let mut segments = Vec::new();
-        let mut paths = Vec::new();
+    fn new(model: &CurveModel<f32>, engine: &Engine<'_>, steps: Option<u32>, floor: f64, lfs: Lfs) -> Self {
+        let (mut segments, mut paths, mut arcs) = (Vec::new(), Vec::new(), Vec::new());
         for (index, path) in (0_u32..).zip(model.curve().paths) {
             let first = segments.len();
             let own = model.curve().segments.iter().skip(path.first as usize).take(path.count as usize);
@@ -193,14 +142,28 @@ impl Sent {
                 here = Some(cubic.points[3]);
                 let corners = [0, 1].map(|side| s.end(side).kind == JointKind::Corner);
                 segments.push(given::segment(number(segments.len()), index, cubic, corners));
+                if lfs == Lfs::OnChip {
+                    given::join(&mut segments);
+                    cut(&mut segments, &mut arcs);
+                }
             }
             paths.push(Path { source: index, first: number(first), ..*path });
         }
         let extent = Extent::of(&segments);
-        let mut sent = Self { segments, paths, columns: Vec::new(), values: Vec::new(), extent };
+        let mut nodes = Vec::new();
+        if lfs == Lfs::OnChip {
+            // Vectors take everything: there is no error.
+            let _ = given::finish(&mut segments, &mut arcs, LEAF, &mut Vec::new(), &mut nodes);
+        }
+        let mut sent = Self { segments, paths, arcs, nodes, columns: Vec::new(), values: Vec::new(), extent };
         for index in 0..number(sent.segments.len()) {
             let first = sent.values.len();
             sent.columns.push(Column { first: number(first), count: 0 });
+            if sent.segments[index as usize].twin.is_some() {
+                // The table of the segment that it repeats stands for it.
+                sent.fill(engine, index, 1);
+                continue;
+            }
             let [mut few, most] = STEPS;
             if let Some(steps) = steps {
                 few = steps;
@@ -222,27 +185,29 @@ impl Sent {
             segments: &self.segments,
             sources: &[],
             paths: &self.paths,
-            arcs: &[],
-            nodes: &[],
-            leaf: 1,
+            arcs: &self.arcs,
+            nodes: &self.nodes,
+            leaf: LEAF,
             diagonal: &self.extent.diagonal,
             noise: &self.extent.noise,
         }
     }
 
-    /// Appends the values of a segment, none above the engine's lfs less its tolerance and the noise of the coordinates.
+    /// Appends the values of a segment.
     fn fill(&mut self, engine: &Engine<'_>, segment: u32, steps: u32) {
         let column = Column { count: steps + 1, ..self.columns[segment as usize] };
-        let curve = self.curve();
-        let value = |k: u32| {
-            let p = curve.point(&CurveParam { segment, t: column.parameter(k) }).unwrap_or_default();
-            let lfs = engine.lfs(&double(&p)) * (1.0 - engine.tolerance()) - 2.0 * f64::from(self.extent.noise);
+        let values: Vec<f32> = (0..column.count)
             // Rounded towards 0, twice.
-            expand(reduce(rounded(lfs * (1.0 - 1e-7)).max(0.0)))
-        };
-        let values: Vec<f32> = (0..column.count).map(value).collect();
+            .map(|k| expand(reduce(rounded(self.lfs(engine, segment, column.parameter(k)) * (1.0 - 1e-7)).max(0.0))))
+            .collect();
         self.columns[segment as usize] = column;
         self.values.extend(values);
+    }
+
+    /// No more than the engine's lfs at a place: less its tolerance and the noise of the coordinates.
+    fn lfs(&self, engine: &Engine<'_>, segment: u32, t: f32) -> f64 {
+        let p = self.curve().point(&CurveParam { segment, t }).unwrap_or_default();
+        engine.lfs(&double(&p)) * (1.0 - engine.tolerance()) - 2.0 * f64::from(self.extent.noise)
     }
 
     /// The chip's answer and the engine's at places between the values of a segment.
@@ -263,18 +228,38 @@ impl Sent {
         self.looks(engine, segment).iter().all(|&(told, lfs)| lfs <= floor || told >= lfs * 0.875 || told.is_infinite())
     }
 
-    /// The largest relative excess of the chip's answers over the engine's lfs, where lfs is above `floor`.
-    fn excess(&self, engine: &Engine<'_>, floor: f64) -> f64 {
-        let all = (0..number(self.segments.len())).flat_map(|segment| self.looks(engine, segment));
-        all.filter(|(_, lfs)| *lfs > floor && lfs.is_finite()).fold(0.0, |most, (told, lfs)| most.max(told / lfs - 1.0))
+    /// What the chip's own values are too large by at most, where they are above `floor`: η.
+    fn excess(&self, engine: &Engine<'_>, foot_points: u32, floor: f64) -> Result<f64, BufferFull> {
+        let curve = self.curve();
+        let mut contacts = Vec::new();
+        for segment in 0..number(curve.segments.len()) {
+            contact::find(&curve, segment, &mut contacts)?;
+        }
+        let cells: Vec<Cell<u16>> = vec![Cell::new(0); self.values.len()];
+        let (get, set) = (|k: u32| expand(cells[k as usize].get()), |k: u32, v: f32| cells[k as usize].set(reduce(v)));
+        let mut most = vec![0.0; self.nodes.len()];
+        let mut gather = Gather::new(&curve, &self.columns, &contacts, foot_points, &mut most, (get, set))?;
+        while gather.step(u32::MAX) != Progress::Done {}
+        let mut excess = 0.0_f64;
+        for (segment, column) in (0..).zip(&self.columns).filter(|(s, _)| self.segments[*s as usize].twin.is_none()) {
+            for k in 0..column.count {
+                let value = f64::from(get(column.first + k));
+                let lfs = self.lfs(engine, segment, column.parameter(k)).max(floor);
+                if value > lfs {
+                    excess = excess.max(value / lfs - 1.0);
+                }
+            }
+        }
+        // The quotient is rounded, and the chip's: some roundoffs of binary32.
+        Ok(excess + if excess > 0.0 { 1e-6 } else { 0.0 })
     }
 
     /// Bytes that it may take, at most.
     fn bytes(&self) -> usize {
-        10 * self.paths.len() + self.segments.len() * (25 + 4 + 33) + 3 * self.values.len()
+        10 * self.paths.len() + self.segments.len() * (25 + 4 + 33) + 3 * self.values.len() + 5 * self.arcs.len()
     }
 
-    fn encode(&self, out: &mut [u8], options: &JobOptions) -> Result<usize, JobError> {
+    fn encode(&self, out: &mut [u8], options: &JobOptions, lfs: Lfs) -> Result<usize, JobError> {
         let mut encoder = Encoder::new(out, options)?;
         let along: Vec<(&Segment<f32>, &Column)> = self.segments.iter().zip(&self.columns).collect();
         for path in &self.paths {
@@ -285,12 +270,30 @@ impl Sent {
                     encoder.begin([start.x, start.y], path.closed)?;
                 }
                 encoder.cubic([a.x, a.y, b.x, b.y, c.x, c.y])?;
-                let values = self.values.iter().skip(column.first as usize).take(column.count as usize);
                 let corners = [0, 1].map(|side| segment.end(side).kind == JointKind::Corner);
+                if lfs == Lfs::OnChip {
+                    encoder.places(corners, u16::try_from(column.count).unwrap_or(u16::MAX))?;
+                    for arc in self.curve().arcs_of(segment).iter().skip(1) {
+                        encoder.cut(arc.span[0])?;
+                    }
+                    continue;
+                }
+                let values = self.values.iter().skip(column.first as usize).take(column.count as usize);
                 encoder.table(corners, &values.copied().collect::<Vec<_>>())?;
             }
         }
         encoder.end()
+    }
+}
+
+/// Arcs of the last segment, as the job will cut them.
+fn cut(segments: &mut [Segment<f32>], arcs: &mut Vec<Arc<f32>>) {
+    let (index, mut own) = (number(segments.len()) - 1, Vec::new());
+    // Vectors take everything: there is no error.
+    let _ = segments.last().map(|segment| arc::cut(index, segment, &mut own));
+    let _ = given::arc(segments, arcs);
+    for arc in own.iter().skip(1) {
+        let _ = given::cut(segments, arcs, arc.span[0]);
     }
 }
 

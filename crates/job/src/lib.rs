@@ -12,15 +12,23 @@
 //! | 4 | line from the last point | x, y |
 //! | 5 | lfs along the cubic before it | number of values, 2 to 1025 (u16), corners (u8: 1 where the cubic starts, 2 where it ends) |
 //! | 6 | values | 16 values (u16 each): the upper half of a binary32, towards 0; what is beyond the number is 0 |
+//! | 7 | lfs along the cubic before it is wanted | number of places, 2 to 1025 (u16), corners as in 5 |
+//! | 8 | an arc of that cubic ends here | its parameter in (0, 1), ascending (f32) |
 //! | 15 | end | CRC-32 (u32) |
 //!
-//! η covers what the chip's lfs may be too large by (its steps, f32): the chip samples at ε/(1 + η), so that the effective
-//! ε is never above the asked one.
+//! The cubics are those of the curve as the host's door made it, split, snapped and smoothed, so that a controller needs no
+//! door. Ends whose points are equal to the bit meet. lfs is known at places along each cubic, at equal steps of its parameter,
+//! the first at 0, the last at 1; every cubic has a command 5, or every cubic has a command 7.
 //!
-//! **With lfs.** Commands 5 and 6 are for a controller that does not compute lfs: every cubic has them or none. The cubics are then
-//! those of the curve as the host's door made it, split, snapped and smoothed, so that the controller needs no door; the
-//! values stand at equal steps of the cubic's parameter, the first at 0, the last at 1, and none is above lfs at its place. As
-//! many commands 6 follow a command 5 as its values need. η covers what the table may be too large by.
+//! **With lfs.** Commands 5 and 6 are for a controller that does not compute lfs. No value is above lfs at its place. As many
+//! commands 6 follow a command 5 as its values need.
+//!
+//! **Without lfs.** A command 7 says where the controller has to compute it, and the commands 8 after it where curvature is
+//! extremal or zero, and where so much turning has come together that a new arc begins. A cubic that repeats an earlier one has two
+//! places and no arcs.
+//!
+//! η covers what the controller's values may be too large by at their places (its foot points, f32): it divides them by 1 + η.
+//! Values that come with the job need no η.
 //!
 //! [`Decoder::push`] takes one byte and does a bounded amount of work; its memory is fixed. A job must not move a motor
 //! before its end has been accepted: only then is the checksum known to hold.
@@ -66,7 +74,7 @@ const INFINITE: u16 = reduce(f32::INFINITY);
 pub struct JobOptions {
     /// ε in (0, 1].
     pub epsilon: f32,
-    /// The chip samples at ε/(1 + η); in [0, 1].
+    /// Values of lfs are divided by 1 + η; in [0, 1].
     pub eta: f32,
     /// Largest chord error; 0 for none.
     pub chord_error: f32,
@@ -111,6 +119,15 @@ pub enum Command {
     },
     /// Values of the table, as [`expand`] reads them.
     Values([u16; VALUES]),
+    /// lfs has to be computed along the last cubic.
+    Places {
+        /// At how many places.
+        places: u16,
+        /// C has a corner where the cubic starts, where it ends.
+        corners: [bool; 2],
+    },
+    /// An arc of the last cubic ends at this parameter.
+    Cut(f32),
     /// The job is whole and its checksum holds.
     End,
 }
@@ -182,8 +199,9 @@ const fn payload(kind: u8) -> Option<usize> {
         2 => 9,
         3 => 24,
         4 => 8,
-        5 => 3,
+        5 | 7 => 3,
         6 => 2 * VALUES,
+        8 => 4,
         15 => 4,
         _ => return None,
     })
@@ -225,6 +243,8 @@ pub struct Decoder {
     curve: bool,
     /// Values of a table that are still to come.
     values: usize,
+    /// Where the last arc of a cubic starts; 1 where there is none to cut.
+    arc: f32,
 }
 
 impl Default for Decoder {
@@ -246,6 +266,7 @@ impl Decoder {
             path: false,
             curve: false,
             values: 0,
+            arc: 1.0,
         }
     }
 
@@ -309,10 +330,12 @@ impl Decoder {
     }
 
     fn command(&mut self, kind: u8) -> Result<Command, JobError> {
-        if (kind == 1) == self.options || (kind == 6) != (self.values > 0) || (kind == 5 && !self.curve) {
+        let follows = matches!(kind, 5 | 7);
+        if (kind == 1) == self.options || (kind == 6) != (self.values > 0) || (follows && !self.curve) {
             return Err(JobError::Order);
         }
         self.curve = matches!(kind, 3 | 4);
+        let arc = core::mem::replace(&mut self.arc, 1.0);
         match kind {
             1 => {
                 self.options = true;
@@ -349,13 +372,29 @@ impl Decoder {
                 self.state = State::Ended;
                 Ok(Command::End)
             }
-            5 => {
+            5 | 7 => {
                 let (values, corners) = (u16::from_le_bytes([self.byte(0), self.byte(1)]), self.byte(2));
                 if !(2..=MOST_VALUES).contains(&values) || corners > 3 {
                     return Err(JobError::Range);
                 }
+                let corners = [corners & 1 != 0, corners & 2 != 0];
+                if kind == 7 {
+                    self.arc = 0.0;
+                    return Ok(Command::Places { places: values, corners });
+                }
                 self.values = usize::from(values);
-                Ok(Command::Table { values, corners: [corners & 1 != 0, corners & 2 != 0] })
+                Ok(Command::Table { values, corners })
+            }
+            8 => {
+                let t = self.number(0)?;
+                if arc >= 1.0 {
+                    return Err(JobError::Order);
+                }
+                if t <= arc || t >= 1.0 {
+                    return Err(JobError::Range);
+                }
+                self.arc = t;
+                Ok(Command::Cut(t))
             }
             6 => {
                 let values = core::array::from_fn(|k| u16::from_le_bytes([self.byte(2 * k), self.byte(2 * k + 1)]));
@@ -393,12 +432,6 @@ impl Decoder {
 }
 
 impl JobOptions {
-    /// Radii of medial points below which their places need not be kept better: where ε·lfs is below d_min anyway.
-    #[must_use]
-    pub fn resolution(&self) -> f32 {
-        self.min_distance / self.epsilon
-    }
-
     /// Checks every number against its range.
     ///
     /// # Errors
@@ -492,9 +525,7 @@ impl<'a> Encoder<'a> {
     /// [`JobError::Full`]; [`JobError::Range`] for fewer than 2 values or more than [`MOST_VALUES`].
     pub fn table(&mut self, corners: [bool; 2], values: &[f32]) -> Result<(), JobError> {
         let count = u16::try_from(values.len()).ok().filter(|n| (2..=MOST_VALUES).contains(n));
-        let [low, high] = count.ok_or(JobError::Range)?.to_le_bytes();
-        let [start, end] = corners.map(u8::from);
-        self.bytes(&[5, low, high, start | end << 1])?;
+        self.along(5, corners, count.ok_or(JobError::Range)?)?;
         for chunk in values.chunks(VALUES) {
             self.bytes(&[6])?;
             for k in 0..VALUES {
@@ -502,6 +533,35 @@ impl<'a> Encoder<'a> {
             }
         }
         Ok(())
+    }
+
+    /// lfs along the cubic before it has to be computed: at how many places, and where C has corners.
+    ///
+    /// # Errors
+    /// [`JobError::Full`]; [`JobError::Range`] for fewer than 2 places or more than [`MOST_VALUES`].
+    pub fn places(&mut self, corners: [bool; 2], places: u16) -> Result<(), JobError> {
+        if !(2..=MOST_VALUES).contains(&places) {
+            return Err(JobError::Range);
+        }
+        self.along(7, corners, places)
+    }
+
+    /// An arc of the cubic before it ends at a parameter.
+    ///
+    /// # Errors
+    /// [`JobError::Full`]; [`JobError::Range`] for a parameter that is not inside (0, 1).
+    pub fn cut(&mut self, t: f32) -> Result<(), JobError> {
+        if !(t > 0.0 && t < 1.0) {
+            return Err(JobError::Range);
+        }
+        self.bytes(&[8])?;
+        self.numbers(&[t])
+    }
+
+    fn along(&mut self, kind: u8, corners: [bool; 2], count: u16) -> Result<(), JobError> {
+        let [low, high] = count.to_le_bytes();
+        let [start, end] = corners.map(u8::from);
+        self.bytes(&[kind, low, high, start | end << 1])
     }
 
     /// Ends the job; the number of bytes written.

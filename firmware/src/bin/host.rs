@@ -19,14 +19,12 @@ fn main() {
 #[cfg(not(target_os = "none"))]
 mod host {
     use feature_sampling::bezier::Cubic;
-    use feature_sampling::buffer::{SliceStore, Store};
-    use feature_sampling::curve::door::{self, CurveBuffers, DoorOptions, PathInput};
-    use feature_sampling::curve::{Arc, Path, Segment, Source};
     use feature_sampling::geometry::Point;
-    use feature_sampling::geometry::hierarchy::{Item, Node};
     use feature_sampling::sampling::Sample;
-    use fsample_job::{Command, Decoder, LEAF};
+    use fsample_job::{Command, Decoder};
     use fsample_planner::MotorStep;
+    use plotter::own::{self, MedialMemory};
+    use plotter::stream::JobMemory;
     use plotter::*;
     use std::fmt::Write;
 
@@ -87,41 +85,6 @@ mod host {
             job
         }
 
-        /// For each segment of C its path in the job and where it comes from.
-        fn sources(&self) -> Vec<(u32, Source<f32>)> {
-            let count: usize = self.paths.iter().map(|(_, cubics)| cubics.len()).sum();
-            if self.with_lfs {
-                // The job's cubics are C.
-                let whole = |segment| Source { segment, from: 0.0, to: 1.0, handles: None };
-                let along = |(path, (_, cubics)): (u32, &(bool, Vec<Cubic<f32>>))| {
-                    (0..).zip(cubics).map(|(k, _)| (path, whole(k))).collect::<Vec<_>>()
-                };
-                return (0..).zip(&self.paths).flat_map(along).collect();
-            }
-            // Lines where a straight cubic turns back, two pieces a cusp, closing lines; arcs as they come.
-            let (most, arcs) = (4 * count + 16, 64 * count + 64);
-            let (mut segments, mut sources) = (vec![Segment::default(); most], vec![Source::default(); most]);
-            let (mut paths, mut order) = (vec![Path::default(); count + 1], vec![0; most]);
-            let (mut pieces, mut items) = (vec![Arc::default(); arcs], vec![Item::default(); arcs]);
-            let mut nodes = vec![Node::default(); arcs];
-            let mut buffers = CurveBuffers {
-                segments: SliceStore::new(&mut segments),
-                sources: SliceStore::new(&mut sources),
-                paths: SliceStore::new(&mut paths),
-                arcs: SliceStore::new(&mut pieces),
-                nodes: SliceStore::new(&mut nodes),
-                items: SliceStore::new(&mut items),
-                order: SliceStore::new(&mut order),
-            };
-            let paths = self.paths.iter().map(|(closed, cubics)| PathInput { closed: *closed, cubics });
-            if door::enter(paths, &DoorOptions { leaf: LEAF, ..DoorOptions::default() }, &mut buffers).is_err() {
-                return Vec::new();
-            }
-            let paths = buffers.paths.items();
-            let path = |s: &Segment<f32>| paths.get(s.path as usize).map_or(0, |p| p.source);
-            buffers.segments.items().iter().map(path).zip(buffers.sources.items().iter().copied()).collect()
-        }
-
         /// The two tables.
         fn tables(&self, samples: &[Sample<f32>]) -> [String; 2] {
             let mut cubics = String::from("path,closed,x0,y0,x1,y1,x2,y2,x3,y3\n");
@@ -131,12 +94,15 @@ mod host {
                     let _ = writeln!(cubics, "{path},{},{points}", u8::from(*closed));
                 }
             }
-            let sources = self.sources();
+            // The job's cubics are those of C, counted through all paths.
+            let along = |(path, (_, cubics)): (u32, &(bool, Vec<Cubic<f32>>))| {
+                (0..).zip(cubics).map(|(k, _)| (path, k)).collect::<Vec<(u32, u32)>>()
+            };
+            let places: Vec<(u32, u32)> = (0..).zip(&self.paths).flat_map(along).collect();
             let mut rows = String::from("path,segment,t,x,y,lfs\n");
             for s in samples {
-                let Some((path, source)) = sources.get(s.at.segment as usize) else { continue };
-                let t = source.parameter(&s.at.t);
-                let _ = writeln!(rows, "{path},{},{t},{},{},{}", source.segment, s.point.x, s.point.y, s.lfs);
+                let Some((path, segment)) = places.get(s.at.segment as usize) else { continue };
+                let _ = writeln!(rows, "{path},{segment},{},{},{},{}", s.at.t, s.point.x, s.point.y, s.lfs);
             }
             [cubics, rows]
         }
@@ -144,34 +110,31 @@ mod host {
 
     /// A job of tier 2.
     fn own_lfs(bytes: Vec<u8>, print: &mut Print) -> Result<Totals, Fault> {
-        let mut curve = CurveMemory {
+        let (mut nodes, mut items) = (vec![Default::default(); NODES], vec![Default::default(); LEAVES]);
+        let memory = JobMemory {
             segments: &mut vec![Default::default(); SEGMENTS],
+            columns: &mut vec![Default::default(); SEGMENTS],
             paths: &mut vec![Default::default(); PATHS],
             arcs: &mut vec![Default::default(); ARCS],
-            nodes: &mut vec![Default::default(); NODES],
+            values: &mut [],
         };
-        let scratch = Scratch {
-            cubics: &mut vec![Default::default(); CUBICS],
-            lengths: &mut [(0, false); PATHS],
-            items: &mut vec![Default::default(); LEAVES],
-            order: &mut vec![0; ORDER],
-        };
-        let received = receive(bytes.into_iter(), &mut curve, scratch)?;
+        let received = own::receive(bytes.into_iter(), memory, &mut nodes, &mut items, print)?;
         let medial = MedialMemory {
             contacts: &mut vec![Default::default(); CONTACTS],
-            blocks: &mut vec![Default::default(); BLOCKS],
-            boxes: &mut vec![Default::default(); BOXES],
+            values: &mut vec![0; VALUES],
+            most: &mut vec![0.0; NODES],
         };
-        draw(&received, &curve, medial, TURNS, print)
+        own::draw(&received, medial, TURNS, print)
     }
 
     /// A job of tier 1.
     fn given_lfs(bytes: Vec<u8>, print: &mut Print) -> Result<Totals, Fault> {
-        let memory = table::TableMemory {
+        let memory = JobMemory {
             segments: &mut vec![Default::default(); SEGMENTS],
             columns: &mut vec![Default::default(); SEGMENTS],
             paths: &mut vec![Default::default(); PATHS],
-            values: &mut vec![0; table::VALUES],
+            arcs: &mut [],
+            values: &mut vec![0; VALUES],
         };
         table::draw(&table::receive(bytes.into_iter(), memory)?, TURNS, print)
     }

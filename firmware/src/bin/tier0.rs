@@ -49,8 +49,6 @@ mod chip {
             // SAFETY: a device's register.
             let byte = unsafe { PORT.read_volatile() } as u8;
             match decoder.push(byte) {
-                // lfs is not for this one.
-                Ok(None) | Ok(Some(Command::End | Command::Table { .. } | Command::Values(_))) => {}
                 Ok(Some(Command::Options(options))) => tolerance = options.chord_error,
                 Ok(Some(Command::Begin { at: [x, y], .. })) => here = Point::new(x, y),
                 Ok(Some(Command::Line([x, y]))) => {
@@ -65,6 +63,8 @@ mod chip {
                         put(&p);
                     }
                 }
+                // What concerns lfs is not for this one.
+                Ok(_) => {}
                 Err(_) => decoder = Decoder::new(),
             }
         }

@@ -5,8 +5,8 @@
 
 use super::{Door, index_of};
 use crate::buffer::Store;
-use crate::curve::joint;
-use crate::curve::{EndId, JointEnd, JointKind, Path, Segment, obstacle_end};
+use crate::curve::joint::{end_mut, end_ref, members_of};
+use crate::curve::{EndId, JointKind, Path, Segment, obstacle_end};
 use crate::geometry::{Point, Vector};
 use crate::order::sort;
 use crate::scalar::Scalar;
@@ -126,36 +126,6 @@ impl<S: Scalar> Door<'_, S> {
         turn_handle(segments, b, u);
         true
     }
-
-    /// A twin is the same curve as its leader, to the bit, and its ends are of the same kinds.
-    pub(super) fn follow_twins(&self, segments: &mut [Segment<S>]) {
-        for i in 0..segments.len() {
-            let Some(t) = segments.get(i).and_then(|s| s.twin) else { continue };
-            let Some(leader) = segments.get(t.segment() as usize) else { continue };
-            let (cubic, ends) = if t.reversed() {
-                let [a, b] = leader.ends.clone();
-                (leader.cubic.reversed(), [b, a])
-            } else {
-                (leader.cubic.clone(), leader.ends.clone())
-            };
-            if let Some(s) = segments.get_mut(i) {
-                s.cubic = cubic;
-                s.ends = ends;
-            }
-        }
-    }
-}
-
-pub(super) fn end_ref<S>(segments: &[Segment<S>], e: EndId) -> Option<&JointEnd<S>> {
-    segments.get(e.segment() as usize).and_then(|s| s.ends.get(e.side()))
-}
-
-fn end_mut<S>(segments: &mut [Segment<S>], e: EndId) -> Option<&mut JointEnd<S>> {
-    segments.get_mut(e.segment() as usize).and_then(|s| s.ends.get_mut(e.side()))
-}
-
-fn members_of<S>(segments: &[Segment<S>], e: EndId) -> impl Iterator<Item = EndId> + '_ {
-    joint::members(e, |e| end_ref(segments, e).map(|end| end.next))
 }
 
 fn segments_point<S: Scalar>(segments: &[Segment<S>], e: Option<EndId>) -> Option<Point<S>> {

@@ -19,13 +19,12 @@
 
 mod joints;
 mod paths;
-mod strands;
 
 use super::given::Extent;
-use super::{Arc, Curve, Path, Segment, Source, arc, twin};
+use super::{Arc, Curve, Path, Segment, Source, arc, index_of, strands, twin};
 use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};
-use crate::geometry::hierarchy::{self, Item, Node};
+use crate::geometry::hierarchy::{Item, Node};
 use crate::geometry::{Aabb, Point};
 use crate::scalar::Scalar;
 use core::fmt;
@@ -253,7 +252,7 @@ where
     door.report.twins = index_of(segments.iter().filter(|s| s.twin.is_some()).count());
     door.join(segments, out.items(), order);
     door.classify(segments);
-    door.follow_twins(segments);
+    twin::follow(segments);
     for s in segments.iter_mut() {
         s.power = s.cubic.power_basis();
     }
@@ -266,22 +265,8 @@ where
     }
     strands::number(segments, arcs.items_mut());
     let leaf = options.leaf.max(1);
-    for (i, chunk) in arcs.items().chunks(leaf as usize).enumerate() {
-        let mut bounds = Aabb::empty();
-        for arc in chunk {
-            if let Some(s) = segments.get(arc.segment as usize) {
-                bounds.merge(&arc.bounds(s));
-            }
-        }
-        items.push(Item { bounds, index: index_of(i) })?;
-    }
-    hierarchy::build(items.items_mut(), nodes)?;
+    arc::enclose(segments, arcs.items(), leaf, items, nodes)?;
     Ok(Entered { diagonal, noise, leaf, report })
-}
-
-/// An index below 2^31 as u32; larger counts were refused before.
-fn index_of(i: usize) -> u32 {
-    u32::try_from(i).unwrap_or(u32::MAX)
 }
 
 impl<S: Scalar> DoorReport<S> {

@@ -1,11 +1,10 @@
-//! Step 8 of the door: strands, and the turning along them.
+//! Strands, and the turning along them (step 8 of the door).
 //!
 //! A strand is a maximal chain of smoothly joined segments, open or a loop. Each arc knows how far the strand has turned
 //! where it starts and ends: that tells which pieces of curve are local to each other, without distances.
 
-use super::index_of;
-use super::joints::end_ref;
-use crate::curve::{Arc, EndId, JointKind, Segment};
+use super::joint::end_ref;
+use super::{Arc, EndId, JointKind, Segment, index_of};
 use crate::scalar::Scalar;
 
 /// The strand that follows a segment left through an end: the other end of a smooth joint.
@@ -14,7 +13,7 @@ fn smooth_neighbour<S>(segments: &[Segment<S>], e: EndId) -> Option<EndId> {
     (end.kind == JointKind::Smooth).then_some(end.next)
 }
 
-/// Step 8: numbers the strands and accumulates turning along them.
+/// Numbers the strands and accumulates turning along them.
 pub(super) fn number<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut [Arc<S>]) {
     let total = index_of(segments.len());
     let mut strands = 0;

@@ -161,7 +161,8 @@ pub fn sampling_options(options: &JobOptions) -> SamplingOptions<f32> {
 /// Turns of the sampler in one call, in the images: at most five look-ups of lfs.
 pub const TURNS: u32 = 4;
 
-/// Draws all paths of a curve. `value` is the list of all values of lfs, which are divided by 1 + η.
+/// Draws all paths of a curve. Not inlined, so that its memory is needed while it draws only. `value` is the list of all values of lfs, which are divided by 1 + η.
+#[inline(never)]
 fn draw_paths(
     curve: &Curve<'_, f32>,
     columns: &[Column],

@@ -9,6 +9,7 @@ use feature_sampling::curve::contact::{self, Contact};
 use feature_sampling::curve::given::{self, Extent};
 use feature_sampling::geometry::hierarchy::{Item, Node};
 use feature_sampling::lfs::gather::Gather;
+use feature_sampling::lfs::table::Column;
 use feature_sampling::medial::uniform::Progress;
 use fsample_job::{LEAF, expand, reduce};
 
@@ -75,38 +76,51 @@ pub fn draw(
     };
     let places = received.job.places();
     let values = medial.values.get_mut(..places as usize).ok_or(Fault::Memory)?;
-    let mut contacts = SliceStore::new(medial.contacts);
+    let cells = Cell::from_mut(values).as_slice_of_cells();
+    let points =
+        feature_size(&curve, columns, cells, u32::from(options.foot_points), medial.contacts, medial.most, listener)?;
+    let totals = Totals {
+        segments: index(segments.len()),
+        arcs: index(arcs.len()),
+        medial: points,
+        values: places,
+        ..Totals::default()
+    };
+    let value = |k: u32| cells.get(k as usize).map_or(0, Cell::get);
+    draw_paths(&curve, columns, value, options, budget, totals, listener)
+}
+
+/// Computes the values of lfs of a curve; how many medial points it took. Not inlined, so that its memory is free afterwards.
+#[inline(never)]
+fn feature_size(
+    curve: &Curve<'_, f32>,
+    columns: &[Column],
+    values: &[Cell<u16>],
+    foot_points: u32,
+    contacts: &mut [Contact<f32>],
+    most: &mut [f32],
+    listener: &mut impl Listener,
+) -> Result<u32, Fault> {
+    let mut found = SliceStore::new(contacts);
     for (segment, _) in (0_u32..).zip(curve.segments) {
         listener.before();
-        contact::find(&curve, segment, &mut contacts)?;
+        contact::find(curve, segment, &mut found)?;
         listener.after(Work::Contacts);
     }
-    let contacts: &[Contact<f32>] = contacts.into_items();
-
-    let cells = Cell::from_mut(values).as_slice_of_cells();
-    let value = |k: u32| cells.get(k as usize).map_or(0, Cell::get);
+    let get = |k: u32| values.get(k as usize).map_or(0.0, |value| expand(value.get()));
     let set = |k: u32, v: f32| {
-        if let Some(cell) = cells.get(k as usize) {
-            cell.set(reduce(v));
+        if let Some(value) = values.get(k as usize) {
+            value.set(reduce(v));
         }
     };
-    let access = (|k| expand(value(k)), set);
-    let mut gather = Gather::new(&curve, columns, contacts, u32::from(options.foot_points), medial.most, access)?;
+    let mut gather = Gather::new(curve, columns, found.into_items(), foot_points, most, (get, set));
     // Every turn gets on; the last path ends it.
     loop {
         listener.before();
         let progress = gather.step(1);
         listener.after(Work::Foot);
         if progress == Progress::Done {
-            break;
+            return Ok(gather.taken());
         }
     }
-    let totals = Totals {
-        segments: index(segments.len()),
-        arcs: index(arcs.len()),
-        medial: gather.taken(),
-        values: places,
-        ..Totals::default()
-    };
-    draw_paths(&curve, columns, value, options, budget, totals, listener)
 }

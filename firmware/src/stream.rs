@@ -69,6 +69,7 @@ fn end(columns: &[Column]) -> u32 {
 ///
 /// # Errors
 /// See [`Fault`]; a job that says of a cubic nothing, or what another kind of controller wants, is out of order.
+#[inline(never)]
 pub fn read(bytes: impl Iterator<Item = u8>, memory: JobMemory<'_>, lfs: Lfs) -> Result<Job<'_>, Fault> {
     let mut segments = SliceStore::new(memory.segments);
     let mut columns = SliceStore::new(memory.columns);

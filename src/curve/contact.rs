@@ -52,6 +52,7 @@ pub(crate) fn point_length<S: Scalar>(curve: &Curve<'_, S>) -> S {
 ///
 /// # Errors
 /// [`BufferFull`] where `out` cannot take more.
+#[inline(never)]
 pub fn find<S: Scalar>(curve: &Curve<'_, S>, segment: u32, out: &mut impl Store<Contact<S>>) -> Result<(), BufferFull> {
     let Some(s) = curve.segment(segment) else { return Ok(()) };
     let finder = Finder { curve, reach: reach(curve), coarse: curve.diagonal.clone() / &S::int(100_000) };

@@ -73,11 +73,8 @@ struct Values<'c, S, G, P> {
 }
 
 impl<'c, S: Scalar, G: Fn(u32) -> S, P: Fn(u32, S)> Gather<'c, S, G, P> {
-    /// Before the first turn. `columns` has an entry a segment, `most` at least as many as the curve's hierarchy has nodes;
-    /// `contacts` are the touchings of the whole curve. Every value is set to infinity.
-    ///
-    /// # Errors
-    /// [`BufferFull`] where `most` is too short.
+    /// Before the first turn. `columns` has an entry a segment, `contacts` are the touchings of the whole curve. Every value is
+    /// set to infinity. `most` has an entry a node of the curve's hierarchy; where there are fewer, more places are looked at.
     pub fn new(
         curve: &'c Curve<'c, S>,
         columns: &'c [Column],
@@ -85,16 +82,17 @@ impl<'c, S: Scalar, G: Fn(u32) -> S, P: Fn(u32, S)> Gather<'c, S, G, P> {
         foot_points: u32,
         most: &'c mut [S],
         (get, set): (G, P),
-    ) -> Result<Self, BufferFull> {
-        let capacity = most.len();
-        let most = most.get_mut(..curve.nodes.len()).ok_or(BufferFull { capacity })?;
+    ) -> Self {
         for column in columns {
             (column.first..column.first.saturating_add(column.count)).for_each(|k| set(k, S::infinity()));
         }
-        let walk = UniformWalk::new(curve, 0, foot_points, contacts, 0);
         let (last, polyline) = (Point::new(S::zero(), S::zero()), u32::MAX);
-        let values = Values { curve, columns, most, get, set, last, polyline, taken: 0, stale: 0 };
-        Ok(Self { stage: Stage::Disks(0), path: 0, walk, values })
+        Self {
+            stage: Stage::Disks(0),
+            path: 0,
+            walk: UniformWalk::new(curve, 0, foot_points, contacts, 0),
+            values: Values { curve, columns, most, get, set, last, polyline, taken: 0, stale: 0 },
+        }
     }
 
     /// Medial points so far.
@@ -181,6 +179,11 @@ impl<'c, S: Scalar, G: Fn(u32) -> S, P: Fn(u32, S)> Values<'c, S, G, P> {
         }
     }
 
+    /// No value below the node is above this.
+    fn most(&self, i: u32) -> S {
+        self.most.get(i as usize).cloned().unwrap_or_else(S::infinity)
+    }
+
     fn below(&self, i: usize) -> Option<Below> {
         self.curve.nodes.get(i).map(|node| node.below(u32::try_from(i).unwrap_or(u32::MAX)))
     }
@@ -193,7 +196,7 @@ impl<'c, S: Scalar, G: Fn(u32) -> S, P: Fn(u32, S)> Values<'c, S, G, P> {
                     .fold(most, |most, k| most.max((self.get)(stretch.column.first.saturating_add(k))))
             }),
             Some(Below::Nodes(nodes)) => {
-                let [left, right] = nodes.map(|n| self.most.get(n as usize).cloned().unwrap_or_else(S::infinity));
+                let [left, right] = nodes.map(|n| self.most(n));
                 left.max(right)
             }
             None => return,
@@ -211,14 +214,12 @@ impl<'c, S: Scalar, G: Fn(u32) -> S, P: Fn(u32, S)> Values<'c, S, G, P> {
         let mut next = Some(0);
         while let Some(i) = next {
             let node = i as usize;
-            let (Some(bounds), Some(most)) = (self.curve.nodes.get(node).map(|n| &n.bounds), self.most.get(node))
-            else {
-                break;
-            };
+            let Some(bounds) = self.curve.nodes.get(node).map(|n| &n.bounds) else { break };
+            let most = self.most(i);
             next = None;
             if bounds.gap_sq(&edge) < most.clone().square() {
                 match self.below(node) {
-                    Some(Below::Item(leaf)) => self.look(leaf, most, a, b),
+                    Some(Below::Item(leaf)) => self.look(leaf, &most, a, b),
                     Some(Below::Nodes([left, right])) => {
                         waiting.keep(right);
                         next = Some(left);

@@ -117,20 +117,23 @@ pub struct UniformWalk<'c, S> {
     stage: Stage<S>,
 }
 
+/// A path, and the first stage of a walk around it.
+fn beginning<S>(curve: &Curve<'_, S>, path: u32) -> (Path, Stage<S>) {
+    let path = curve.paths.get(path as usize).copied().unwrap_or_default();
+    (path, if path.count > 0 { Stage::Side } else { Stage::Done })
+}
+
 impl<'c, S: Scalar> UniformWalk<'c, S> {
     /// At the start of a path; the parameters are those of [`walk_uniform`]. A path that does not exist has no medial points.
     pub fn new(curve: &'c Curve<'c, S>, path: u32, steps: u32, contacts: &'c [Contact<S>], polyline: u32) -> Self {
         let steps = i32::try_from(steps.clamp(1, 1 << 24)).unwrap_or(1);
-        let trail = Trail::new(curve, contacts, polyline);
-        let mut walk = Self { trail, path: Path::default(), steps, side: Side::Left, passed: 0, stage: Stage::Done };
-        walk.go_on(path);
-        walk
+        let (path, stage) = beginning(curve, path);
+        Self { trail: Trail::new(curve, contacts, polyline), path, steps, side: Side::Left, passed: 0, stage }
     }
 
     /// Goes on with another path, and the next number of a polyline.
     pub(crate) fn go_on(&mut self, path: u32) {
-        self.path = self.trail.curve.paths.get(path as usize).copied().unwrap_or_default();
-        self.stage = if self.path.count > 0 { Stage::Side } else { Stage::Done };
+        (self.path, self.stage) = beginning(self.trail.curve, path);
         (self.side, self.passed) = (Side::Left, 0);
     }
 

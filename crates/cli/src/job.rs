@@ -238,7 +238,7 @@ impl Sent {
         let cells: Vec<Cell<u16>> = vec![Cell::new(0); self.values.len()];
         let (get, set) = (|k: u32| expand(cells[k as usize].get()), |k: u32, v: f32| cells[k as usize].set(reduce(v)));
         let mut most = vec![0.0; self.nodes.len()];
-        let mut gather = Gather::new(&curve, &self.columns, &contacts, foot_points, &mut most, (get, set))?;
+        let mut gather = Gather::new(&curve, &self.columns, &contacts, foot_points, &mut most, (get, set));
         while gather.step(u32::MAX) != Progress::Done {}
         let mut excess = 0.0_f64;
         for (segment, column) in (0..).zip(&self.columns).filter(|(s, _)| self.segments[*s as usize].twin.is_none()) {

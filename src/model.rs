@@ -8,7 +8,7 @@ use crate::buffer::{BufferFull, Store};
 use crate::certificate::{Claim, Neighbourhood, Piece, Placed, Step, Verdict};
 use crate::curve::contact::{self, Contact};
 use crate::curve::door::{self, CurveBuffers, CurveError, DoorOptions, DoorReport, Entered, PathInput};
-use crate::curve::{Arc, Curve, CurveParam, Path, Segment, Source};
+use crate::curve::{ArcStart, Curve, CurveParam, Path, Segment, Source};
 use crate::geometry::Point;
 use crate::geometry::hierarchy::{Item, Node};
 use crate::lfs::{self, LfsIndex};
@@ -20,7 +20,7 @@ use crate::scalar::{Directed, Scalar};
 use alloc::vec::Vec;
 
 type Buffers<S> =
-    CurveBuffers<Vec<Segment<S>>, Vec<Source<S>>, Vec<Path>, Vec<Arc<S>>, Vec<Node<S>>, Vec<Item<S>>, Vec<u32>>;
+    CurveBuffers<Vec<Segment<S>>, Vec<Source<S>>, Vec<Path>, Vec<ArcStart<S>>, Vec<Node<S>>, Vec<Item<S>>, Vec<u32>>;
 
 /// A curve C in vectors.
 #[derive(Debug)]

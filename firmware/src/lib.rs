@@ -27,12 +27,10 @@ use feature_sampling::sampling::{Condition, Sample, SamplingError, SamplingOptio
 use fsample_job::{JobError, JobOptions, LEAF, expand};
 use fsample_planner::{Limits, MotorStep, PlanError, Planner};
 
-/// Cubics that a drawing may have.
+/// Cubics that a job may have: those of the curve that its host's door made.
 pub const CUBICS: usize = 200;
 /// Paths that a job may have.
 pub const PATHS: usize = 48;
-/// Segments of C, the cubics of a job: closing lines and splits at cusps come on top of the drawing's.
-pub const SEGMENTS: usize = CUBICS + 4;
 /// Arcs.
 pub const ARCS: usize = 6 * CUBICS;
 /// Leaves of the hierarchy over the arcs.

@@ -2,10 +2,10 @@
 
 use crate::own::{self, MedialMemory};
 use crate::stream::JobMemory;
-use crate::{ARCS, CONTACTS, Fault, LEAVES, Listener, NODES, PATHS, SEGMENTS, Totals, VALUES, table};
+use crate::{ARCS, CONTACTS, CUBICS, Fault, LEAVES, Listener, NODES, PATHS, Totals, VALUES, table};
 use core::mem::{ManuallyDrop, MaybeUninit};
 use feature_sampling::curve::contact::Contact;
-use feature_sampling::curve::{Arc, Path, Segment};
+use feature_sampling::curve::{ArcStart, Path, Segment};
 use feature_sampling::geometry::hierarchy::{Item, Node};
 use feature_sampling::lfs::table::Column;
 
@@ -19,10 +19,10 @@ union Phase {
 
 /// What a job keeps whose lfs is computed here.
 struct Own {
-    segments: [Segment<f32>; SEGMENTS],
-    columns: [Column; SEGMENTS],
+    segments: [Segment<f32>; CUBICS],
+    columns: [Column; CUBICS],
     paths: [Path; PATHS],
-    arcs: [Arc<f32>; ARCS],
+    arcs: [ArcStart<f32>; ARCS],
     nodes: [Node<f32>; NODES],
     most: [f32; NODES],
     contacts: [Contact<f32>; CONTACTS],
@@ -86,8 +86,8 @@ pub struct TableMemory(MaybeUninit<Given>);
 
 /// What such a job keeps.
 struct Given {
-    segments: [Segment<f32>; SEGMENTS],
-    columns: [Column; SEGMENTS],
+    segments: [Segment<f32>; CUBICS],
+    columns: [Column; CUBICS],
     paths: [Path; PATHS],
     values: [u16; VALUES],
 }

@@ -6,7 +6,7 @@ use crate::Fault;
 use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::{SliceStore, Store};
 use feature_sampling::curve::given;
-use feature_sampling::curve::{Arc, JointKind, Path, Segment};
+use feature_sampling::curve::{ArcStart, JointKind, Path, Segment};
 use feature_sampling::geometry::Point;
 use feature_sampling::lfs::table::Column;
 use fsample_job::{Command, Decoder, JobError, JobOptions};
@@ -23,14 +23,14 @@ pub enum Lfs {
 /// Memory for a job.
 #[derive(Debug)]
 pub struct JobMemory<'a> {
-    /// [`SEGMENTS`](crate::SEGMENTS).
+    /// [`CUBICS`](crate::CUBICS).
     pub segments: &'a mut [Segment<f32>],
-    /// [`SEGMENTS`](crate::SEGMENTS).
+    /// [`CUBICS`](crate::CUBICS).
     pub columns: &'a mut [Column],
     /// [`PATHS`](crate::PATHS).
     pub paths: &'a mut [Path],
     /// [`ARCS`](crate::ARCS), or none where the host computes lfs.
-    pub arcs: &'a mut [Arc<f32>],
+    pub arcs: &'a mut [ArcStart<f32>],
     /// [`VALUES`](crate::VALUES), or none where the controller computes lfs.
     pub values: &'a mut [u16],
 }
@@ -47,7 +47,7 @@ pub struct Job<'a> {
     /// Its paths.
     pub paths: &'a [Path],
     /// Its arcs, without turning.
-    pub arcs: &'a mut [Arc<f32>],
+    pub arcs: &'a mut [ArcStart<f32>],
     /// Values that came along.
     pub values: &'a [u16],
 }
@@ -160,7 +160,7 @@ pub fn read(bytes: impl Iterator<Item = u8>, memory: JobMemory<'_>, lfs: Lfs) ->
     })
 }
 
-/// An index below the number of [`SEGMENTS`](crate::SEGMENTS) or [`VALUES`](crate::VALUES).
+/// An index below the number of [`CUBICS`](crate::CUBICS) or [`VALUES`](crate::VALUES).
 pub(crate) fn index(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }

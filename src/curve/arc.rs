@@ -15,6 +15,18 @@ use crate::order::sort;
 use crate::scalar::Scalar;
 use arrayvec::ArrayVec;
 
+/// Where an arc starts; it ends where the next one of its segment starts. This is what a curve keeps of its arcs, at a third less
+/// memory: [`Curve::arc`](super::Curve::arc) makes an [`Arc`] of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ArcStart<S> {
+    /// The segment.
+    pub segment: u32,
+    /// Parameter where it starts.
+    pub t: S,
+    /// Turning accumulated along the strand there.
+    pub turn: S,
+}
+
 /// A piece of a segment.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Arc<S> {
@@ -36,7 +48,7 @@ type Cuts<S> = ArrayVec<S, 8>;
 ///
 /// # Errors
 /// [`BufferFull`] where `arcs` cannot take them.
-pub fn cut<S: Scalar>(index: u32, segment: &Segment<S>, arcs: &mut impl Store<Arc<S>>) -> Result<(), BufferFull> {
+pub fn cut<S: Scalar>(index: u32, segment: &Segment<S>, arcs: &mut impl Store<ArcStart<S>>) -> Result<(), BufferFull> {
     let mut cuts: Cuts<S> = ArrayVec::new();
     let margin = S::unit_roundoff().mul_pow2(8);
     let inside = |t: &S| *t > margin && *t < S::one() - &margin;
@@ -65,7 +77,7 @@ fn halve<S: Scalar>(
     segment: &Segment<S>,
     from: &S,
     to: &S,
-    arcs: &mut impl Store<Arc<S>>,
+    arcs: &mut impl Store<ArcStart<S>>,
 ) -> Result<(), BufferFull> {
     let mut ends: ArrayVec<S, 13> = ArrayVec::new();
     ends.keep(to.clone());
@@ -76,7 +88,7 @@ fn halve<S: Scalar>(
         let cos = u.dot(&w);
         let little = cos > S::zero() && cos.square() * &S::int(4) >= S::int(3);
         if little || ends.is_full() {
-            arcs.push(Arc { segment: index, span: [start, end.clone()], turn: [S::zero(), S::zero()] })?;
+            arcs.push(ArcStart { segment: index, t: start, turn: S::zero() })?;
             start = end;
             ends.pop();
         } else if ends.try_push(S::midpoint(&start, &end)).is_err() {
@@ -86,25 +98,48 @@ fn halve<S: Scalar>(
     Ok(())
 }
 
+/// Where an arc ends.
+pub(super) fn end<S: Scalar>(arcs: &[ArcStart<S>], index: u32) -> S {
+    let segment = arcs.get(index as usize).map(|arc| arc.segment);
+    match arcs.get(index as usize + 1) {
+        Some(next) if Some(next.segment) == segment => next.t.clone(),
+        _ => S::one(),
+    }
+}
+
+/// The arc that starts at an index.
+#[inline]
+pub(super) fn whole<S: Scalar>(segments: &[Segment<S>], arcs: &[ArcStart<S>], index: u32) -> Option<Arc<S>> {
+    let ArcStart { segment, t, turn } = arcs.get(index as usize)?.clone();
+    let (end, after) = match arcs.get(index as usize + 1) {
+        Some(next) if next.segment == segment => (next.t.clone(), next.turn.clone()),
+        _ => (S::one(), segments.get(segment as usize)?.turn.clone()),
+    };
+    Some(Arc { segment, span: [t, end], turn: [turn, after] })
+}
+
 /// The hierarchy over arcs, of which `leaf` in a row share a leaf; `items` is scratch, one entry a leaf.
 ///
 /// # Errors
 /// [`BufferFull`] where a store cannot take its entries.
 pub(super) fn enclose<S: Scalar>(
     segments: &[Segment<S>],
-    arcs: &[Arc<S>],
+    arcs: &[ArcStart<S>],
     leaf: u32,
     items: &mut impl Store<Item<S>>,
     nodes: &mut impl Store<Node<S>>,
 ) -> Result<(), BufferFull> {
-    for (i, chunk) in arcs.chunks(leaf.max(1) as usize).enumerate() {
+    let (leaf, count) = (leaf.max(1), index_of(arcs.len()));
+    for index in 0..count.div_ceil(leaf) {
         let mut bounds = Aabb::empty();
-        for arc in chunk {
-            if let Some(s) = segments.get(arc.segment as usize) {
+        for i in index * leaf..(index * leaf).saturating_add(leaf).min(count) {
+            if let Some(arc) = whole(segments, arcs, i)
+                && let Some(s) = segments.get(arc.segment as usize)
+            {
                 bounds.merge(&arc.bounds(s));
             }
         }
-        items.push(Item { bounds, index: index_of(i) })?;
+        items.push(Item { bounds, index })?;
     }
     hierarchy::build(items.items_mut(), nodes)
 }

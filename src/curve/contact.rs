@@ -58,7 +58,7 @@ pub fn find<S: Scalar>(curve: &Curve<'_, S>, segment: u32, out: &mut impl Store<
     let finder = Finder { curve, reach: reach(curve), coarse: curve.diagonal.clone() / &S::int(100_000) };
     let first = out.items().len();
     for arc in curve.arcs_of(s) {
-        finder.arc(segment, s, arc, first, out)?;
+        finder.arc(segment, s, &arc, first, out)?;
     }
     finder.settle(s, first, out);
     Ok(())
@@ -184,7 +184,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
 
     /// The arc may touch the stretch: it is not local, not too far, and no line parts the two.
     fn may_touch(&self, view: &View<S>, arc: u32) -> bool {
-        let Some(arc) = self.curve.arcs.get(arc as usize) else { return false };
+        let Some(arc) = &self.curve.arc(arc) else { return false };
         let Some(segment) = self.curve.segment(arc.segment) else { return false };
         let margin = self.reach.clone() + self.curve.noise;
         !view.ends.iter().all(|l| l.holds(segment, arc))
@@ -195,7 +195,7 @@ impl<S: Scalar> Finder<'_, '_, S> {
 
     /// The arc is not local to a place and comes nearer than `within` to its point.
     fn passes(&self, arc: u32, own: &Locality<S>, p: &Point<S>, within: &S) -> bool {
-        let Some(arc) = self.curve.arcs.get(arc as usize) else { return false };
+        let Some(arc) = &self.curve.arc(arc) else { return false };
         let Some(segment) = self.curve.segment(arc.segment) else { return false };
         let limit = within.clone().square();
         !own.holds(segment, arc)

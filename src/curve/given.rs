@@ -11,7 +11,7 @@
 //! that the door had made, but for ends that happen to lie on a joint of other strokes: they are members of it here.
 
 use super::joint::{end_mut, end_ref, members_of};
-use super::{Arc, EndId, JointEnd, JointKind, Segment, Twin, index_of, strands, twin};
+use super::{ArcStart, EndId, JointEnd, JointKind, Segment, Twin, index_of, strands, twin};
 use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};
 use crate::geometry::hierarchy::{Item, Node};
@@ -96,12 +96,12 @@ pub fn join<S: Scalar>(segments: &mut [Segment<S>]) {
 ///
 /// # Errors
 /// [`BufferFull`] where `arcs` cannot take it.
-pub fn arc<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut impl Store<Arc<S>>) -> Result<(), BufferFull> {
+pub fn arc<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut impl Store<ArcStart<S>>) -> Result<(), BufferFull> {
     let index = index_of(segments.len()).saturating_sub(1);
     let Some(segment) = segments.last_mut() else { return Ok(()) };
     segment.arcs = (index_of(arcs.items().len()), 0);
     if segment.twin.is_none() {
-        arcs.push(Arc { segment: index, span: [S::zero(), S::one()], turn: [S::zero(), S::zero()] })?;
+        arcs.push(ArcStart { segment: index, t: S::zero(), turn: S::zero() })?;
         segment.arcs.1 = 1;
     }
     Ok(())
@@ -111,14 +111,16 @@ pub fn arc<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut impl Store<Arc<S>>
 ///
 /// # Errors
 /// [`BufferFull`] where `arcs` cannot take one more.
-pub fn cut<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut impl Store<Arc<S>>, t: S) -> Result<bool, BufferFull> {
-    let (Some(segment), Some(last)) = (segments.last_mut(), arcs.items_mut().last_mut()) else { return Ok(false) };
-    let [from, to] = &last.span;
-    if segment.arcs.1 == 0 || t <= *from || t >= *to {
+pub fn cut<S: Scalar>(
+    segments: &mut [Segment<S>],
+    arcs: &mut impl Store<ArcStart<S>>,
+    t: S,
+) -> Result<bool, BufferFull> {
+    let (Some(segment), Some(last)) = (segments.last_mut(), arcs.items().last()) else { return Ok(false) };
+    if segment.arcs.1 == 0 || t <= last.t || t >= S::one() {
         return Ok(false);
     }
-    let rest = Arc { span: [t.clone(), S::one()], ..last.clone() };
-    last.span[1] = t;
+    let rest = ArcStart { t, ..last.clone() };
     arcs.push(rest)?;
     segment.arcs.1 += 1;
     Ok(true)
@@ -132,7 +134,7 @@ pub fn cut<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut impl Store<Arc<S>>
 /// [`BufferFull`] where a store cannot take its entries.
 pub fn finish<S: Scalar>(
     segments: &mut [Segment<S>],
-    arcs: &mut [Arc<S>],
+    arcs: &mut [ArcStart<S>],
     leaf: u32,
     items: &mut impl Store<Item<S>>,
     nodes: &mut impl Store<Node<S>>,
@@ -192,6 +194,7 @@ pub(super) fn bare<S: Scalar>(index: u32, path: u32, cubic: Cubic<S>) -> Segment
         arcs: (0, 0),
         twin: None,
         strand: u32::MAX,
+        turn: S::zero(),
         loop_turn: S::zero(),
     }
 }

@@ -27,7 +27,7 @@ use crate::bezier::{Cubic, PowerBasis};
 use crate::geometry::hierarchy::{Hierarchy, Node};
 use crate::geometry::{Point, Vector};
 use crate::scalar::Scalar;
-pub use arc::Arc;
+pub use arc::{Arc, ArcStart};
 use core::num::NonZeroU32;
 pub use joint::{EndId, JointEnd, JointKind};
 
@@ -128,6 +128,8 @@ pub struct Segment<S> {
     pub twin: Option<Twin>,
     /// The strand it belongs to.
     pub strand: u32,
+    /// Turning accumulated along the strand at t = 1.
+    pub turn: S,
     /// Turning along the whole strand if it is a closed loop, else 0.
     pub loop_turn: S,
 }
@@ -197,8 +199,8 @@ pub struct Curve<'a, S> {
     pub sources: &'a [Source<S>],
     /// All paths.
     pub paths: &'a [Path],
-    /// All arcs, segment by segment, by ascending parameter.
-    pub arcs: &'a [Arc<S>],
+    /// Where all arcs start, segment by segment, by ascending parameter.
+    pub arcs: &'a [ArcStart<S>],
     /// The hierarchy over the arcs.
     pub nodes: &'a [Node<S>],
     /// Consecutive arcs that share a leaf of the hierarchy, at least 1.
@@ -228,18 +230,24 @@ impl<'a, S: Scalar> Curve<'a, S> {
         Hierarchy::new(self.nodes)
     }
 
-    /// The arcs of a leaf of the hierarchy, with their indices into [`Self::arcs`].
+    /// An arc by its index.
     #[inline]
-    pub fn arcs_in(&self, leaf: u32) -> impl Iterator<Item = (u32, &'a Arc<S>)> + use<'a, S> {
-        let first = leaf.saturating_mul(self.leaf);
-        (first..first.saturating_add(self.leaf)).zip(self.arcs.get(first as usize..).unwrap_or_default())
+    pub fn arc(&self, index: u32) -> Option<Arc<S>> {
+        arc::whole(self.segments, self.arcs, index)
     }
 
-    /// The arcs of a segment.
+    /// The arcs of a leaf of the hierarchy, with their indices.
     #[inline]
-    pub fn arcs_of(&self, segment: &Segment<S>) -> &'a [Arc<S>] {
-        let (first, count) = segment.arcs;
-        self.arcs.get(first as usize..(first + count) as usize).unwrap_or_default()
+    pub fn arcs_in(&self, leaf: u32) -> impl Iterator<Item = (u32, Arc<S>)> + use<'a, S> {
+        let (segments, arcs, first) = (self.segments, self.arcs, leaf.saturating_mul(self.leaf));
+        (first..first.saturating_add(self.leaf)).map_while(move |i| Some((i, arc::whole(segments, arcs, i)?)))
+    }
+
+    /// The arcs of a segment, by ascending parameter.
+    #[inline]
+    pub fn arcs_of(&self, segment: &Segment<S>) -> impl DoubleEndedIterator<Item = Arc<S>> + use<'a, S> {
+        let (segments, arcs, (first, count)) = (self.segments, self.arcs, segment.arcs);
+        (first..first.saturating_add(count)).filter_map(move |i| arc::whole(segments, arcs, i))
     }
 
     /// One end of a segment.

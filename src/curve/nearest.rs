@@ -41,9 +41,12 @@ impl<S: Scalar> Locality<S> {
     /// The locality of a place on the curve; `None` if there is no such place.
     pub fn of(curve: &Curve<'_, S>, at: &CurveParam<S>) -> Option<Self> {
         let segment = curve.segment(at.segment)?;
-        let arcs = curve.arcs_of(segment);
-        let arc = arcs.get(arcs.partition_point(|a| a.span[1] < at.t)).or_else(|| arcs.last())?;
-        Some(Self::on_arc(segment, arc, &at.t))
+        let (first, count) = segment.arcs;
+        let starts = curve.arcs.get(first as usize..)?.get(..count as usize)?;
+        // The first arc that does not end before it.
+        let later = starts.get(1..)?.partition_point(|a| a.t < at.t);
+        let arc = curve.arc(first.saturating_add(u32::try_from(later).ok()?))?;
+        Some(Self::on_arc(segment, &arc, &at.t))
     }
 
     /// Less than one radian of turning, along one strand, lies between this place and some point of the arc.
@@ -130,8 +133,8 @@ fn nearest_where<S: Scalar>(
         |(bound, best), item| {
             for (_, arc) in curve.arcs_in(item) {
                 let Some(segment) = curve.segment(arc.segment) else { return };
-                if admit(segment, arc) {
-                    let near = nearest_on_arc(segment, arc, p);
+                if admit(segment, &arc) {
+                    let near = nearest_on_arc(segment, &arc, p);
                     if near.distance_sq < *bound {
                         *bound = near.distance_sq.clone();
                         *best = Some(near);

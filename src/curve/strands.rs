@@ -4,7 +4,7 @@
 //! where it starts and ends: that tells which pieces of curve are local to each other, without distances.
 
 use super::joint::end_ref;
-use super::{Arc, EndId, JointKind, Segment, index_of};
+use super::{Arc, ArcStart, EndId, JointKind, Segment, arc, index_of};
 use crate::scalar::Scalar;
 
 /// The strand that follows a segment left through an end: the other end of a smooth joint.
@@ -14,7 +14,7 @@ fn smooth_neighbour<S>(segments: &[Segment<S>], e: EndId) -> Option<EndId> {
 }
 
 /// Numbers the strands and accumulates turning along them.
-pub(super) fn number<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut [Arc<S>]) {
+pub(super) fn number<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut [ArcStart<S>]) {
     let total = index_of(segments.len());
     let mut strands = 0;
     for i in 0..total {
@@ -40,16 +40,20 @@ pub(super) fn number<S: Scalar>(segments: &mut [Segment<S>], arcs: &mut [Arc<S>]
             if let Some(s) = segments.get_mut(k) {
                 s.strand = strands;
                 let (first, count) = s.arcs;
-                let own = arcs.get_mut(first as usize..(first + count) as usize).unwrap_or_default();
-                let pass = |a: &mut Arc<S>, turn: &mut S| {
-                    let after = a.turning(s) + &*turn;
-                    a.turn = if forwards { [turn.clone(), after.clone()] } else { [after.clone(), turn.clone()] };
-                    *turn = after;
-                };
+                if !forwards {
+                    s.turn = turn.clone();
+                }
+                for n in 0..count {
+                    let index = first + if forwards { n } else { count - 1 - n };
+                    let end = arc::end(arcs, index);
+                    let Some(start) = arcs.get_mut(index as usize) else { break };
+                    let span = [start.t.clone(), end];
+                    let after = Arc { segment: start.segment, span, turn: [S::zero(), S::zero()] }.turning(s) + &turn;
+                    let before = core::mem::replace(&mut turn, after);
+                    start.turn = if forwards { before } else { turn.clone() };
+                }
                 if forwards {
-                    own.iter_mut().for_each(|a| pass(a, &mut turn));
-                } else {
-                    own.iter_mut().rev().for_each(|a| pass(a, &mut turn));
+                    s.turn = turn.clone();
                 }
             }
             match smooth_neighbour(segments, entry.opposite()) {

@@ -23,7 +23,7 @@
 use super::table::Column;
 use crate::buffer::{BufferFull, Keep, Sink};
 use crate::curve::contact::Contact;
-use crate::curve::{Curve, CurveParam, Segment};
+use crate::curve::{Arc, Curve, CurveParam, Segment};
 use crate::geometry::hierarchy::{Below, MAX_DEPTH};
 use crate::geometry::{Aabb, Point, project_to_segment};
 use crate::medial::uniform::{Progress, UniformWalk};
@@ -261,18 +261,17 @@ impl<'c, S: Scalar, G: Fn(u32) -> S, P: Fn(u32, S)> Values<'c, S, G, P> {
         let mut arcs = curve.arcs_in(leaf).map(|(_, arc)| arc);
         let mut next = arcs.next();
         core::iter::from_fn(move || {
-            let first = next.take()?;
-            let mut last = first;
+            let Arc { segment: index, span: [start, mut end], .. } = next.take()?;
             for arc in arcs.by_ref() {
-                if arc.segment != first.segment {
+                if arc.segment != index {
                     next = Some(arc);
                     break;
                 }
-                last = arc;
+                [_, end] = arc.span;
             }
-            let column = *columns.get(first.segment as usize).filter(|column| column.count > 1)?;
-            let segment = curve.segment(first.segment)?;
-            Some(Stretch { segment, column, from: column.step(&first.span[0]), to: column.step(&last.span[1]) + 2 })
+            let column = *columns.get(index as usize).filter(|column| column.count > 1)?;
+            let segment = curve.segment(index)?;
+            Some(Stretch { segment, column, from: column.step(&start), to: column.step(&end) + 2 })
         })
     }
 }

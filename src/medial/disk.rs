@@ -121,6 +121,10 @@ impl<S: Scalar> Guard<S> {
                 for (index, arc) in curve.arcs_in(leaf) {
                     let Some(segment) = curve.segment(arc.segment) else { continue };
                     let cubic = segment.cubic.part(&arc.span[0], &arc.span[1]);
+                    // A leaf of several arcs is larger than each of them.
+                    if curve.leaf > 1 && cubic.control_box().distance_sq(&g.centre) > g.radius.clone().square() {
+                        continue;
+                    }
                     let arc = Guarded { arc: index, cubic, seen_from: g.centre.clone(), keeps: S::zero() };
                     if g.arcs.try_push(arc).is_err() {
                         g.radius = S::zero();
@@ -253,8 +257,11 @@ impl<'f, S: Scalar> Search<'f, S> {
             self,
             |s, bounds| s.smallest.meets(bounds, curve.noise),
             |s, leaf, _| {
-                for (arc, _) in curve.arcs_in(leaf) {
-                    s.visit(curve, arc, None);
+                for (index, arc) in curve.arcs_in(leaf) {
+                    let meets = |segment| s.smallest.meets(&arc.bounds(segment), curve.noise);
+                    if curve.leaf == 1 || curve.segment(arc.segment).is_some_and(meets) {
+                        s.visit(curve, index, None);
+                    }
                 }
             },
         );
@@ -273,7 +280,7 @@ impl<'f, S: Scalar> Search<'f, S> {
 
     /// Shrinks the disk where the arc enters it, perhaps at a maximum near the parameter `guess`.
     fn visit(&mut self, curve: &Curve<'_, S>, index: u32, guess: Option<&S>) {
-        let Some(arc) = curve.arcs.get(index as usize) else { return };
+        let Some(arc) = &curve.arc(index) else { return };
         let Some(segment) = curve.segment(arc.segment) else { return };
         let middle = S::midpoint(&arc.span[0], &arc.span[1]);
         let part = Pencil::part(self.smallest.foot, arc.segment, &middle);

@@ -16,7 +16,7 @@ pub fn roots<S: Directed, E>(
     scene: &Scene<'_, S>,
     mut each: impl FnMut(FootSpan<S>) -> Result<(), E>,
 ) -> Result<(), E> {
-    for arc in scene.curve.arcs {
+    for arc in (0..).map_while(|index| scene.curve.arc(index)) {
         for side in [Side::Left, Side::Right] {
             each(FootSpan::Normal { segment: arc.segment, span: arc.span.clone(), side })?;
         }

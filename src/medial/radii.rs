@@ -244,7 +244,7 @@ impl<S: Directed> Emptiness<'_, '_, S> {
 
     /// Lowers the radius until the arc is proved to be outside.
     fn arc(&mut self, index: u32) {
-        let Some(arc) = self.scene.curve.arcs.get(index as usize) else { return };
+        let Some(arc) = self.scene.curve.arc(index) else { return };
         let Some(segment) = self.scene.curve.segment(arc.segment) else { return };
         let touches = self.scene.touches(self.feet, arc.segment);
         let mut pending: ArrayVec<[S; 2], 48> = ArrayVec::new();

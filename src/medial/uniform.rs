@@ -73,7 +73,7 @@ enum GoalKind<S> {
 /// A place among the arcs of a segment, in the walk's direction: how many arcs and contacts of the arc were passed.
 #[derive(Clone, Copy, Debug)]
 struct Passed {
-    arcs: usize,
+    arcs: u32,
     contacts: usize,
 }
 
@@ -216,16 +216,16 @@ impl<'c, S: Scalar> UniformWalk<'c, S> {
     }
 
     /// The next arc of the side, where there is one.
-    fn arc(&self, passed: Passed) -> Option<&'c Arc<S>> {
+    fn arc(&self, passed: Passed) -> Option<Arc<S>> {
         let curve = self.trail.curve;
-        let arcs = curve.arcs_of(curve.segment(self.segment())?);
-        let n = if self.forwards() { passed.arcs } else { arcs.len().checked_sub(1 + passed.arcs)? };
-        arcs.get(n)
+        let (first, count) = curve.segment(self.segment())?.arcs;
+        let left = count.checked_sub(1 + passed.arcs)?;
+        curve.arc(first + if self.forwards() { passed.arcs } else { left })
     }
 
     /// What lies ahead: a contact on the arc, or its end.
     fn next(&mut self, passed: Passed, from: &S) -> Stage<S> {
-        let Some(arc) = self.arc(passed) else {
+        let Some(arc) = &self.arc(passed) else {
             self.trail.joined = true;
             return Stage::Joint;
         };

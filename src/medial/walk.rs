@@ -178,7 +178,6 @@ impl<S: Scalar, Out: Sink<MedialPoint<S>>> Walker<'_, '_, S, Out> {
             self.trail.break_line();
             return Ok(());
         }
-        let arcs = curve.arcs_of(segment);
         let forwards = side == Side::Left;
         let start_t = if forwards { S::zero() } else { S::one() };
         let Some(mut here) = self.trail.side_station(CurveParam { segment: index, t: start_t }, side) else {
@@ -187,9 +186,9 @@ impl<S: Scalar, Out: Sink<MedialPoint<S>>> Walker<'_, '_, S, Out> {
         if !self.trail.joined {
             self.trail.emit(&here, self.out)?;
         }
-        let count = arcs.len();
+        let (first, count) = segment.arcs;
         for n in 0..count {
-            let Some(arc) = arcs.get(if forwards { n } else { count - 1 - n }) else { break };
+            let Some(arc) = &curve.arc(first + if forwards { n } else { count - 1 - n }) else { break };
             let touched = self.trail.contacts_in(index, arc);
             let points = touched.len();
             for m in 0..points {
@@ -392,7 +391,7 @@ impl<S: Scalar, Out: Sink<MedialPoint<S>>> Walker<'_, '_, S, Out> {
             }
         }
         let Some(own) = Locality::of(self.trail.curve, &m.at) else { return false };
-        let Some(facing) = self.trail.curve.arcs.get(touch.arc as usize) else { return false };
+        let Some(facing) = &self.trail.curve.arc(touch.arc) else { return false };
         if self.trail.curve.segment(facing.segment).is_none_or(|other| own.holds(other, facing)) {
             return false;
         }

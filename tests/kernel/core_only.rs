@@ -8,7 +8,7 @@ use arrayvec::ArrayVec;
 use feature_sampling::buffer::{BufferFull, SliceStore, Store};
 use feature_sampling::curve::contact::{self, Contact};
 use feature_sampling::curve::door::{self, CurveBuffers, CurveError, DoorOptions, PathInput};
-use feature_sampling::curve::{Arc, Path, Segment, Source};
+use feature_sampling::curve::{ArcStart, Path, Segment, Source};
 use feature_sampling::geometry::hierarchy::{Item, Node, nodes_for};
 use feature_sampling::lfs::{self, LfsIndex, items_for};
 use feature_sampling::medial::{self, MedialPoint, Resolution};
@@ -79,7 +79,7 @@ impl<Sg, So, Pa, Ar, No, It, Or, Co, Me, Mn, Mi, Sa, Sc> Stores<Sg, So, Pa, Ar, 
         Sg: Store<Segment<S>>,
         So: Store<Source<S>>,
         Pa: Store<Path>,
-        Ar: Store<Arc<S>>,
+        Ar: Store<ArcStart<S>>,
         No: Store<Node<S>>,
         It: Store<Item<S>>,
         Or: Store<u32>,
@@ -121,7 +121,7 @@ fn in_slices<S: Scalar + Copy + Default, R>(
     let mut segments = [Segment::<S>::default(); ROOM.segments];
     let mut sources = [Source::<S>::default(); ROOM.segments];
     let mut path_list = [Path::default(); ROOM.paths];
-    let mut arcs = [Arc::<S>::default(); ROOM.arcs];
+    let mut arcs = [ArcStart::<S>::default(); ROOM.arcs];
     let mut nodes = [Node::<S>::default(); nodes_for(ROOM.arcs)];
     let mut items = [Item::<S>::default(); ROOM.arcs];
     let mut order = [0_u32; ROOM.segments];
@@ -211,7 +211,7 @@ fn array_vectors_equal_vectors() {
                 segments: ArrayVec::<Segment<f32>, 16>::new(),
                 sources: ArrayVec::<Source<f32>, 16>::new(),
                 paths: ArrayVec::<Path, 4>::new(),
-                arcs: ArrayVec::<Arc<f32>, 160>::new(),
+                arcs: ArrayVec::<ArcStart<f32>, 160>::new(),
                 nodes: ArrayVec::<Node<f32>, 320>::new(),
                 items: ArrayVec::<Item<f32>, 160>::new(),
                 order: ArrayVec::<u32, 16>::new(),

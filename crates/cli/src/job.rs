@@ -15,7 +15,7 @@ use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::BufferFull;
 use feature_sampling::curve::door::{DoorOptions, sine_of_degrees};
 use feature_sampling::curve::given::{self, Extent};
-use feature_sampling::curve::{Arc, Curve, CurveParam, JointKind, Path, Segment, arc, contact};
+use feature_sampling::curve::{ArcStart, Curve, CurveParam, JointKind, Path, Segment, arc, contact};
 use feature_sampling::geometry::Point;
 use feature_sampling::geometry::hierarchy::Node;
 use feature_sampling::lfs::FeatureSize;
@@ -117,7 +117,7 @@ fn single(cubic: &Cubic<f64>) -> Cubic<f32> {
 struct Sent {
     segments: Vec<Segment<f32>>,
     paths: Vec<Path>,
-    arcs: Vec<Arc<f32>>,
+    arcs: Vec<ArcStart<f32>>,
     nodes: Vec<Node<f32>>,
     columns: Vec<Column>,
     values: Vec<f32>,
@@ -273,7 +273,7 @@ impl Sent {
                 let corners = [0, 1].map(|side| segment.end(side).kind == JointKind::Corner);
                 if lfs == Lfs::OnChip {
                     encoder.places(corners, u16::try_from(column.count).unwrap_or(u16::MAX))?;
-                    for arc in self.curve().arcs_of(segment).iter().skip(1) {
+                    for arc in self.curve().arcs_of(segment).skip(1) {
                         encoder.cut(arc.span[0])?;
                     }
                     continue;
@@ -287,13 +287,13 @@ impl Sent {
 }
 
 /// Arcs of the last segment, as the job will cut them.
-fn cut(segments: &mut [Segment<f32>], arcs: &mut Vec<Arc<f32>>) {
+fn cut(segments: &mut [Segment<f32>], arcs: &mut Vec<ArcStart<f32>>) {
     let (index, mut own) = (number(segments.len()) - 1, Vec::new());
     // Vectors take everything: there is no error.
     let _ = segments.last().map(|segment| arc::cut(index, segment, &mut own));
     let _ = given::arc(segments, arcs);
     for arc in own.iter().skip(1) {
-        let _ = given::cut(segments, arcs, arc.span[0]);
+        let _ = given::cut(segments, arcs, arc.t);
     }
 }
 

@@ -45,7 +45,7 @@ pub const LARGEST: f32 = 1.0e5;
 
 /// Arcs that share a leaf of the curve's hierarchy on the chip. The host measures η with the same number: another one can
 /// change the last bits of a radius.
-pub const LEAF: u32 = 8;
+pub const LEAF: u32 = 12;
 
 /// Values of lfs in one command.
 pub const VALUES: usize = 16;

@@ -112,8 +112,8 @@ mod host {
     fn own_lfs(bytes: Vec<u8>, print: &mut Print) -> Result<Totals, Fault> {
         let (mut nodes, mut items) = (vec![Default::default(); NODES], vec![Default::default(); LEAVES]);
         let memory = JobMemory {
-            segments: &mut vec![Default::default(); SEGMENTS],
-            columns: &mut vec![Default::default(); SEGMENTS],
+            segments: &mut vec![Default::default(); CUBICS],
+            columns: &mut vec![Default::default(); CUBICS],
             paths: &mut vec![Default::default(); PATHS],
             arcs: &mut vec![Default::default(); ARCS],
             values: &mut [],
@@ -130,8 +130,8 @@ mod host {
     /// A job of tier 1.
     fn given_lfs(bytes: Vec<u8>, print: &mut Print) -> Result<Totals, Fault> {
         let memory = JobMemory {
-            segments: &mut vec![Default::default(); SEGMENTS],
-            columns: &mut vec![Default::default(); SEGMENTS],
+            segments: &mut vec![Default::default(); CUBICS],
+            columns: &mut vec![Default::default(); CUBICS],
             paths: &mut vec![Default::default(); PATHS],
             arcs: &mut [],
             values: &mut vec![0; VALUES],

@@ -21,7 +21,7 @@ mod joints;
 mod paths;
 
 use super::given::Extent;
-use super::{Arc, Curve, Path, Segment, Source, arc, index_of, strands, twin};
+use super::{ArcStart, Curve, Path, Segment, Source, arc, index_of, strands, twin};
 use crate::bezier::Cubic;
 use crate::buffer::{BufferFull, Store};
 use crate::geometry::hierarchy::{Item, Node};
@@ -218,7 +218,7 @@ where
     Sg: Store<Segment<S>>,
     So: Store<Source<S>>,
     Pa: Store<Path>,
-    Ar: Store<Arc<S>>,
+    Ar: Store<ArcStart<S>>,
     No: Store<Node<S>>,
     It: Store<Item<S>>,
     Or: Store<u32>,
@@ -351,7 +351,7 @@ impl<Sg, So, Pa, Ar, No, It, Or> CurveBuffers<Sg, So, Pa, Ar, No, It, Or> {
         Sg: Store<Segment<S>>,
         So: Store<Source<S>>,
         Pa: Store<Path>,
-        Ar: Store<Arc<S>>,
+        Ar: Store<ArcStart<S>>,
         No: Store<Node<S>>,
     {
         Curve {

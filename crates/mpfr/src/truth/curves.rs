@@ -145,7 +145,7 @@ pub fn source_parameter<S: Scalar>(g: &mut Gen) -> f64 {
 pub fn arc_bounds<S: Scalar>(g: &mut Gen) -> f64 {
     let pair = pair::<S>(g);
     let (curve, truth) = (pair.model.curve(), pair.truth.curve());
-    worst(curve.arcs.iter().map(|arc| {
+    worst((0..).map_while(|index| curve.arc(index)).map(|arc| {
         let (Some(segment), Some(exact)) = (curve.segment(arc.segment), truth.segment(arc.segment)) else {
             return f64::INFINITY;
         };
@@ -163,7 +163,7 @@ pub fn arc_bounds<S: Scalar>(g: &mut Gen) -> f64 {
 pub fn arc_turning<S: Scalar>(g: &mut Gen) -> f64 {
     let pair = pair::<S>(g);
     let (curve, truth) = (pair.model.curve(), pair.truth.curve());
-    worst(curve.arcs.iter().map(|arc| {
+    worst((0..).map_while(|index| curve.arc(index)).map(|arc| {
         let (Some(segment), Some(exact)) = (curve.segment(arc.segment), truth.segment(arc.segment)) else {
             return f64::INFINITY;
         };

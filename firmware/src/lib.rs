@@ -54,6 +54,8 @@ pub enum Fault {
     Memory,
     /// The job draws nothing.
     Empty,
+    /// All its points coincide.
+    NoExtent,
     /// The sampler refused its options or its limit.
     Sampling(SamplingError),
     /// A point or a limit that the motors cannot follow.
@@ -67,7 +69,8 @@ impl Fault {
         match self {
             Self::Job(error) => 0x100 | error.code() as u32,
             Self::Memory => 0x200,
-            Self::Empty => 0x300,
+            Self::Empty => 0x301,
+            Self::NoExtent => 0x302,
             Self::Sampling(_) => 0x400,
             Self::Motion(_) => 0x500,
         }

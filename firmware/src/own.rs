@@ -6,7 +6,7 @@ use core::cell::Cell;
 use feature_sampling::buffer::SliceStore;
 use feature_sampling::curve::Curve;
 use feature_sampling::curve::contact::{self, Contact};
-use feature_sampling::curve::given::{self, Extent};
+use feature_sampling::curve::given;
 use feature_sampling::geometry::hierarchy::{Item, Node};
 use feature_sampling::lfs::gather::Gather;
 use feature_sampling::lfs::table::Column;
@@ -29,7 +29,6 @@ pub struct MedialMemory<'a> {
 pub struct Received<'a> {
     job: Job<'a>,
     nodes: &'a [Node<f32>],
-    extent: Extent<f32>,
 }
 
 /// Reads a whole job and makes its curve. `nodes` are [`NODES`](crate::NODES); `items`, [`LEAVES`](crate::LEAVES), are free
@@ -47,10 +46,9 @@ pub fn receive<'a>(
     let job = read(bytes, memory, Lfs::Own)?;
     let mut nodes = SliceStore::new(nodes);
     listener.before();
-    let extent = Extent::of(job.segments);
     given::finish(job.segments, job.arcs, LEAF, &mut SliceStore::new(items), &mut nodes)?;
     listener.after(Work::Curve);
-    Ok(Received { job, nodes: nodes.into_items(), extent })
+    Ok(Received { job, nodes: nodes.into_items() })
 }
 
 /// Computes lfs of a received job and draws it. `budget` is the number of turns of a call of the sampler.
@@ -63,7 +61,7 @@ pub fn draw(
     budget: u32,
     listener: &mut impl Listener,
 ) -> Result<Totals, Fault> {
-    let Received { job: Job { options, segments, columns, paths, arcs, .. }, nodes, extent } = received;
+    let Received { job: Job { options, segments, columns, paths, arcs, extent, .. }, nodes } = received;
     let curve = Curve {
         segments,
         sources: &[],

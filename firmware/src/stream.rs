@@ -5,7 +5,7 @@
 use crate::Fault;
 use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::{SliceStore, Store};
-use feature_sampling::curve::given;
+use feature_sampling::curve::given::{self, Extent};
 use feature_sampling::curve::{ArcStart, JointKind, Path, Segment};
 use feature_sampling::geometry::Point;
 use feature_sampling::lfs::table::Column;
@@ -50,6 +50,8 @@ pub struct Job<'a> {
     pub arcs: &'a mut [ArcStart<f32>],
     /// Values that came along.
     pub values: &'a [u16],
+    /// Its size and noise.
+    pub extent: Extent<f32>,
 }
 
 impl Job<'_> {
@@ -150,8 +152,13 @@ pub fn read(bytes: impl Iterator<Item = u8>, memory: JobMemory<'_>, lfs: Lfs) ->
     if segments.items().is_empty() {
         return Err(Fault::Empty);
     }
+    let extent = Extent::of(segments.items());
+    if extent.diagonal <= 0.0 {
+        return Err(Fault::NoExtent);
+    }
     Ok(Job {
         options,
+        extent,
         segments: segments.into_items(),
         columns: columns.into_items(),
         paths: paths.into_items(),

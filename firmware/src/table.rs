@@ -3,7 +3,6 @@
 use crate::stream::{Job, JobMemory, Lfs, index, read};
 use crate::{Fault, Listener, Totals, draw_paths};
 use feature_sampling::curve::Curve;
-use feature_sampling::curve::given::Extent;
 
 /// Reads a whole job.
 ///
@@ -18,8 +17,7 @@ pub fn receive(bytes: impl Iterator<Item = u8>, memory: JobMemory<'_>) -> Result
 /// # Errors
 /// See [`Fault`].
 pub fn draw(job: &Job<'_>, budget: u32, listener: &mut impl Listener) -> Result<Totals, Fault> {
-    let Job { options, segments, columns, paths, values, .. } = job;
-    let extent = Extent::of(segments);
+    let Job { options, segments, columns, paths, values, extent, .. } = job;
     let curve = Curve {
         segments,
         sources: &[],

@@ -117,7 +117,9 @@ pub fn cut<S: Scalar>(
     t: S,
 ) -> Result<bool, BufferFull> {
     let (Some(segment), Some(last)) = (segments.last_mut(), arcs.items().last()) else { return Ok(false) };
-    if segment.arcs.1 == 0 || t <= last.t || t >= S::one() {
+    // What is not a number does not fit either.
+    let fits = t > last.t && t < S::one();
+    if segment.arcs.1 == 0 || !fits {
         return Ok(false);
     }
     let rest = ArcStart { t, ..last.clone() };

@@ -11,6 +11,7 @@ mod core_only;
 mod disks;
 mod empty_disks;
 mod enclosures;
+mod gather;
 mod interval;
 mod lfs_shapes;
 mod lfs_table;

@@ -23,7 +23,7 @@ extern "C" {
 #define FSAMPLE_PLANNER 1
 #define FSAMPLE_PLANNER_BYTES 512
 #define FSAMPLE_JOB 2
-#define FSAMPLE_JOB_BYTES 118784
+#define FSAMPLE_JOB_BYTES 58368
 
 /* How many bytes of an object are used; 0 for what there is not. */
 uint32_t fsample_bytes(int32_t what);
@@ -78,7 +78,7 @@ typedef struct {
 
 /* Receives a job (the .fsj format) and draws it; `budget` is the number of turns of a call of the sampler, 8 say. Answers
  * the number of samples, FSAMPLE_BAD_POINTER, or minus the fault: 0x101 to 0x109 the stream is no job (1 magic, 2 unknown
- * command, 3 range, 4 order, 5 checksum, 7 truncated), 0x200 too little memory, 0x300 to 0x302 no curve, 0x400 sampling,
+ * command, 3 range, 4 order, 5 checksum, 7 truncated), 0x200 too little memory, 0x301 and 0x302 no curve, 0x400 sampling,
  * 0x500 motion. The memory is free for the next job afterwards, whatever the answer. */
 int32_t fsample_job(void *memory, const fsample_calls *calls, uint32_t budget);
 

@@ -23,8 +23,8 @@ static uint64_t flattener[FSAMPLE_FLATTENER_BYTES / 8];
 static uint64_t planner[FSAMPLE_PLANNER_BYTES / 8];
 static uint64_t memory[FSAMPLE_JOB_BYTES / 8];
 
-/* A job: options, a path of one cubic, and the end with its checksum. It is built here, so that the test needs no file. */
-static uint8_t job[128];
+/* A job: options, a path of one cubic with 33 places and eight arcs, and the end with its checksum. It is built here, so that the test needs no file. */
+static uint8_t job[160];
 static uint32_t length, sum, next_byte, samples, motors, downs, calls_between;
 static int32_t at_x, at_y;
 
@@ -80,6 +80,14 @@ static void make_job(void)
     put(3);
     for (k = 0; k < 6; k++) {
         put_float(cubic[k]);
+    }
+    put(7);
+    put(33);
+    put(0);
+    put(0);
+    for (k = 1; k < 8; k++) {
+        put(8);
+        put_float((float)k / 8.0f);
     }
     put(15);
     put_word(~sum);

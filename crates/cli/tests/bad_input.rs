@@ -140,7 +140,6 @@ fn options_that_make_no_sense() {
     place.fails("sample drawing.svg -o out.fsj --rho 0.5", 2, &["job", "--epsilon", "--rho"]);
     place.fails("sample drawing.svg -o out.fsj --grading 2", 2, &["job", "--grading"]);
     place.fails("sample drawing.svg -o out.fsj --steps 2000", 2, &["job", "--steps", "1024"]);
-    place.fails("sample drawing.svg -o out.fsj --corner-angle 5", 2, &["job", "--corner-angle", "--with-lfs"]);
     place.fails("sample drawing.svg -o out.xyz", 2, &["xyz"]);
     place.fails("sample drawing.svg -o out", 2, &["extension", "--format"]);
     place.fails("medial drawing.svg -o out.gcode", 2, &["gcode", "csv"]);

@@ -42,6 +42,22 @@ fn with_lfs() -> Vec<u8> {
     bytes
 }
 
+/// The same for a controller that computes lfs: the cubic has three arcs.
+fn with_places() -> Vec<u8> {
+    let mut bytes = vec![0; 512];
+    let mut encoder = Encoder::new(&mut bytes, &options()).unwrap();
+    encoder.begin([0.0, 1.0], true).unwrap();
+    encoder.cubic([1.0, 2.0, 3.0, 4.0, 5.0, 6.5]).unwrap();
+    encoder.places([true, false], 300).unwrap();
+    encoder.cut(0.25).unwrap();
+    encoder.cut(0.75).unwrap();
+    encoder.line([-7.0, 8.0]).unwrap();
+    encoder.places([false, true], 2).unwrap();
+    let len = encoder.end().unwrap();
+    bytes.truncate(len);
+    bytes
+}
+
 fn read(bytes: &[u8]) -> Result<Vec<Command>, JobError> {
     let mut decoder = Decoder::new();
     let mut commands = Vec::new();
@@ -96,6 +112,61 @@ fn lfs_is_read_as_written_and_never_larger() {
 }
 
 #[test]
+fn places_and_cuts_are_read_as_written() {
+    let expected = vec![
+        Command::Options(options()),
+        Command::Begin { at: [0.0, 1.0], closed: true },
+        Command::Cubic([1.0, 2.0, 3.0, 4.0, 5.0, 6.5]),
+        Command::Places { places: 300, corners: [true, false] },
+        Command::Cut(0.25),
+        Command::Cut(0.75),
+        Command::Line([-7.0, 8.0]),
+        Command::Places { places: 2, corners: [false, true] },
+        Command::End,
+    ];
+    assert_eq!(read(&with_places()), Ok(expected));
+}
+
+#[test]
+fn places_and_cuts_out_of_place_are_refused() {
+    let mut room = [0; 512];
+    let mut write = |commands: &dyn Fn(&mut Encoder<'_>) -> Result<(), JobError>| {
+        let mut encoder = Encoder::new(&mut room, &options()).unwrap();
+        encoder.begin([0.0, 0.0], false).unwrap();
+        let refused = commands(&mut encoder);
+        let len = encoder.end().unwrap();
+        (refused, read(&room[..len]).err())
+    };
+    let order = (Ok(()), Some(JobError::Order));
+    assert_eq!(write(&|e| e.places([false; 2], 3)), order, "no curve before it");
+    let line = |e: &mut Encoder<'_>| e.line([1.0, 1.0]);
+    assert_eq!(write(&|e| line(e).and(e.places([false; 2], 3)).and(e.places([false; 2], 3))), order, "twice");
+    assert_eq!(write(&|e| line(e).and(e.cut(0.5))), order, "a cut of what has no arc");
+    assert_eq!(write(&|e| line(e).and(e.table([false; 2], &[1.0; 3])).and(e.cut(0.5))), order, "lfs came along");
+    let cuts = |e: &mut Encoder<'_>, last: f32| {
+        line(e)?;
+        e.places([false; 2], 3)?;
+        e.cut(0.5)?;
+        e.cut(last)
+    };
+    assert_eq!(write(&|e| cuts(e, 0.75)), (Ok(()), None));
+    assert_eq!(write(&|e| cuts(e, 0.5)), (Ok(()), Some(JobError::Range)), "not ascending");
+    assert_eq!(write(&|e| cuts(e, 1.0)), (Err(JobError::Range), None));
+    assert_eq!(write(&|e| cuts(e, f32::NAN)), (Err(JobError::Range), None));
+    for count in [0, 1, 1026] {
+        assert_eq!(write(&|e| line(e).and(e.places([false; 2], count))), (Err(JobError::Range), None));
+    }
+    // A cut beyond the cubic, and one that is no number, where the stream says so.
+    let whole = with_places();
+    let at = whole.windows(5).position(|w| w == [8, 0, 0, 128, 62]).unwrap();
+    for bad in [1.0_f32, 0.0, -0.5, f32::NAN] {
+        let mut bytes = whole.clone();
+        bytes[at + 1..at + 5].copy_from_slice(&bad.to_le_bytes());
+        assert_eq!(read(&bytes).err(), Some(JobError::Range), "{bad}");
+    }
+}
+
+#[test]
 fn tables_out_of_place_are_refused() {
     let mut room = [0; 512];
     let mut write = |commands: &dyn Fn(&mut Encoder<'_>) -> Result<(), JobError>| {
@@ -128,7 +199,7 @@ fn tables_out_of_place_are_refused() {
 
 #[test]
 fn every_truncation_and_every_flipped_bit_is_refused() {
-    for whole in [job(), with_lfs()] {
+    for whole in [job(), with_lfs(), with_places()] {
         refused(whole);
     }
 }
@@ -149,7 +220,7 @@ fn refused(whole: Vec<u8>) {
 
 #[test]
 fn a_million_random_and_mutated_streams() {
-    let jobs = [job(), with_lfs()];
+    let jobs = [job(), with_lfs(), with_places()];
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut random = move || {
         state ^= state << 13;
@@ -164,7 +235,7 @@ fn a_million_random_and_mutated_streams() {
         if n % 4 == 0 {
             bytes.extend((0..random() % 64).map(|_| random().to_le_bytes()[0]));
         } else {
-            bytes.extend_from_slice(&jobs[(n % 2) as usize]);
+            bytes.extend_from_slice(&jobs[(n % 3) as usize]);
             for _ in 0..=random() % 3 {
                 let at = usize::try_from(random() % (bytes.len() as u64 + 1)).unwrap();
                 match random() % 4 {

@@ -117,8 +117,17 @@ impl Listener for Channel {
     }
 }
 
-/// Top of the stack, and how far down it is watched.
-const TOP: usize = 0x2040_0000;
+unsafe extern "C" {
+    /// Where the stack begins: a symbol of the linker's script.
+    static _stack_top: u8;
+}
+
+/// Top of the stack.
+fn top() -> usize {
+    (&raw const _stack_top) as usize
+}
+
+/// How far down the stack is watched.
 const WATCHED: usize = 0x1_0000;
 const PAINT: u32 = 0x5AFE_57AC;
 
@@ -127,7 +136,7 @@ const PAINT: u32 = 0x5AFE_57AC;
 fn paint() {
     let here = 0_u32;
     let below = (&raw const here) as usize - 256;
-    for at in (TOP - WATCHED..below).step_by(4) {
+    for at in (top() - WATCHED..below).step_by(4) {
         // SAFETY: RAM below this frame and above the statics; nothing lives there.
         unsafe { (at as *mut u32).write_volatile(PAINT) };
     }
@@ -136,11 +145,11 @@ fn paint() {
 /// How deep the stack has been: bytes from its top to the lowest word that lost its paint.
 #[inline(never)]
 fn depth() -> u32 {
-    let lost = (TOP - WATCHED..TOP).step_by(4).find(|at| {
+    let lost = (top() - WATCHED..top()).step_by(4).find(|at| {
         // SAFETY: RAM.
         unsafe { (*at as *const u32).read_volatile() != PAINT }
     });
-    (TOP - lost.unwrap_or(TOP)) as u32
+    (top() - lost.unwrap_or_else(top)) as u32
 }
 
 #[unsafe(no_mangle)]

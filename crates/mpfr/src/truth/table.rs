@@ -434,7 +434,7 @@ pub const TABLE: &[Entry] = &[
     measured!(
         "sampling::chord::piece_error_sq",
         c::piece_error,
-        "the largest coordinate, for the root of the result",
+        "the largest coordinate, for the root of the result; in f32 an upper bound where a piece reaches beyond its chord",
         [2.0, 4.0],
         SOME
     ),

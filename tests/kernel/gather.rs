@@ -84,7 +84,7 @@ impl<S: Scalar> Received<S> {
 }
 
 fn single(strokes: &Strokes) -> Vec<(bool, Vec<Cubic<f32>>)> {
-    let point = |p: Point<f64>| Point::new(p.x as f32, p.y as f32);
+    let point = |p: Point<f64>| Point::new(f32::from_f64(p.x), f32::from_f64(p.y));
     strokes
         .iter()
         .map(|s| (s.closed, s.cubics.iter().map(|c| Cubic { points: c.points.map(point) }).collect()))

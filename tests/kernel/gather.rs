@@ -38,6 +38,14 @@ fn drawings() -> Vec<(&'static str, Strokes)> {
         ("drop", vec![closed(vec![drop]), stick([-20.0, -5.0], [20.0, -6.0])]),
         ("star", vec![stick([0.0, 0.0], [9.0, 1.0]), stick([0.0, 0.0], [-5.0, 6.0]), stick([2.0, -7.0], [0.0, 0.0])]),
         ("line", vec![stick([0.0, 0.0], [10.0, 3.0])]),
+        ("smooth path twice", {
+            let (a, b) = wave.split_at(&0.375);
+            vec![open(vec![a, b]), open(vec![b.reversed(), a.reversed()])]
+        }),
+        ("halves that meet with their ends", {
+            let (a, b) = wave.split_at(&0.375);
+            vec![open(vec![a]), open(vec![b.reversed()])]
+        }),
     ]
 }
 
@@ -135,6 +143,61 @@ fn cubics_one_by_one_make_the_curve_of_the_door() {
             same(name, &curve, &received.curve(&curve, leaf));
         }
     }
+}
+
+/// However many arcs share a leaf of the hierarchy, the disks are the same, to the last digits of their radii.
+#[test]
+fn leaves_of_several_arcs_have_the_same_disks() {
+    for (name, strokes) in drawings() {
+        let walks = [1, 5, 12].map(|leaf| {
+            let model = curve_model(&strokes, &DoorOptions { leaf, ..DoorOptions::default() });
+            let (curve, mut points, mut line) = (model.curve(), Vec::new(), 0);
+            for (path, _) in (0..).zip(curve.paths) {
+                line = medial::walk_uniform(&curve, path, 40, model.contacts(), line, &mut points).unwrap();
+            }
+            points
+        });
+        for other in &walks[1..] {
+            assert_eq!(walks[0].len(), other.len(), "{name}");
+            for (a, b) in walks[0].iter().zip(other) {
+                assert!((a.radius - b.radius).abs() <= 1e-11 * a.radius, "{name}: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+/// Turning goes on from arc to arc and through smooth joints, by what the arcs turn, whichever way a segment runs.
+#[test]
+fn turning_goes_on_along_strands() {
+    let mut reversed = 0;
+    for (name, strokes) in drawings() {
+        let model = curve_model(&strokes, &DoorOptions::default());
+        let curve = model.curve();
+        let loops = curve.segments.iter().map(|s| s.loop_turn).fold(0.0, f64::max);
+        for (index, s) in (0..).zip(curve.segments).filter(|(_, s)| s.twin.is_none()) {
+            let arcs: Vec<_> = curve.arcs_of(s).collect();
+            assert!(arcs.windows(2).all(|w| w[0].turn[1] == w[1].turn[0] && w[0].span[1] == w[1].span[0]), "{name}");
+            assert!(arcs[0].span[0] == 0.0 && arcs[arcs.len() - 1].span[1] == 1.0, "{name}");
+            for arc in &arcs {
+                let turned = (arc.turn[1] - arc.turn[0]).abs();
+                assert!((turned - arc.turning(s)).abs() < 1e-12, "{name}: {turned} for {}", arc.turning(s));
+                reversed += u32::from(arc.turn[1] < arc.turn[0]);
+            }
+            for side in 0..2 {
+                let end = EndId::new(index, side);
+                let turn = |end: EndId| {
+                    let arcs: Vec<_> = curve.arcs_of(curve.segment(end.segment()).unwrap()).collect();
+                    if end.side() == 0 { arcs[0].turn[0] } else { arcs[arcs.len() - 1].turn[1] }
+                };
+                if s.end(side).kind == JointKind::Smooth {
+                    let next = curve.joint(end).nth(1).unwrap();
+                    let gap = (turn(end) - turn(next)).abs();
+                    assert!(gap < 1e-12 || (gap - loops).abs() < 1e-12, "{name}: {gap}");
+                }
+            }
+        }
+    }
+    assert!(reversed > 0, "a strand runs against a segment");
 }
 
 /// An end that stands on a joint of other strokes to the bit is a member of it; the door knows ends of open paths only.

@@ -63,20 +63,17 @@ pub(crate) fn bytes(
     let name = shown(&drawing.source);
     let foot_points = u16::try_from(steps.unwrap_or(FOOT_POINTS)).ok().filter(|n| (1..=1024).contains(n));
     let foot_points = foot_points.ok_or_else(|| Failure::usage("a job takes --steps from 1 to 1024"))?;
-    let paths: Vec<(bool, Vec<Cubic<f32>>)> =
-        drawing.paths.iter().map(|path| (path.closed, path.cubics.iter().map(single).collect())).collect();
     let min_distance = bounds.min_distance.unwrap_or(Engine::diagonal(drawing) / 1000.0);
     let floor = min_distance / epsilon;
-    let corner_sine = rounded(sine_of_degrees(&engine.corner_angle()));
-    let door = DoorOptions { corner_sine, ..DoorOptions::default() };
-    let input: Vec<(bool, &[Cubic<f32>])> = paths.iter().map(|(closed, cubics)| (*closed, cubics.as_slice())).collect();
-    let model = CurveModel::<f32>::new(&input, &door).map_err(|error| Failure::input(&drawing.source, error))?;
+    let model = curve_of(drawing, engine)?;
     // `--steps` is the number of foot points, or that of values where there are no foot points.
     let places = steps.filter(|_| lfs == Lfs::Along);
     let sent = Sent::new(&model, engine, places, floor, lfs);
-    let full = || Failure::limit(format!("{name}: more arcs or places than a job may have"));
     let eta = match lfs {
-        Lfs::OnChip => sent.excess(engine, u32::from(foot_points), floor).map_err(|_| full())?,
+        Lfs::OnChip => {
+            let full = |_| Failure::limit(format!("{name}: more touchings than there is memory for"));
+            sent.excess(engine, &sent.on_chip(u32::from(foot_points)).map_err(full)?, floor)
+        }
         Lfs::Along => 0.0,
     };
     if eta > 1.0 {
@@ -101,6 +98,16 @@ pub(crate) fn bytes(
     let written = sent.encode(&mut out, &options, lfs).map_err(|error| Failure::input(&drawing.source, error))?;
     out.truncate(written);
     Ok(out)
+}
+
+/// The curve C of a drawing in binary32, as the chip will have it.
+fn curve_of(drawing: &Drawing, engine: &Engine<'_>) -> Result<CurveModel<f32>, Failure> {
+    let paths: Vec<(bool, Vec<Cubic<f32>>)> =
+        drawing.paths.iter().map(|path| (path.closed, path.cubics.iter().map(single).collect())).collect();
+    let input: Vec<(bool, &[Cubic<f32>])> = paths.iter().map(|(closed, cubics)| (*closed, cubics.as_slice())).collect();
+    let corner_sine = rounded(sine_of_degrees(&engine.corner_angle()));
+    let door = DoorOptions { corner_sine, ..DoorOptions::default() };
+    CurveModel::new(&input, &door).map_err(|error| Failure::input(&drawing.source, error))
 }
 
 /// Rounded to binary32.
@@ -228,8 +235,8 @@ impl Sent {
         self.looks(engine, segment).iter().all(|&(told, lfs)| lfs <= floor || told >= lfs * 0.875 || told.is_infinite())
     }
 
-    /// What the chip's own values are too large by at most, where they are above `floor`: η.
-    fn excess(&self, engine: &Engine<'_>, foot_points: u32, floor: f64) -> Result<f64, BufferFull> {
+    /// The values that the chip will compute.
+    fn on_chip(&self, foot_points: u32) -> Result<Vec<f32>, BufferFull> {
         let curve = self.curve();
         let mut contacts = Vec::new();
         for segment in 0..number(curve.segments.len()) {
@@ -240,10 +247,15 @@ impl Sent {
         let mut most = vec![0.0; self.nodes.len()];
         let mut gather = Gather::new(&curve, &self.columns, &contacts, foot_points, &mut most, (get, set));
         while gather.step(u32::MAX) != Progress::Done {}
+        Ok(cells.iter().map(|cell| expand(cell.get())).collect())
+    }
+
+    /// What values are too large by at most, where they are above `floor`: η.
+    fn excess(&self, engine: &Engine<'_>, values: &[f32], floor: f64) -> f64 {
         let mut excess = 0.0_f64;
         for (segment, column) in (0..).zip(&self.columns).filter(|(s, _)| self.segments[*s as usize].twin.is_none()) {
             for k in 0..column.count {
-                let value = f64::from(get(column.first + k));
+                let value = f64::from(values[(column.first + k) as usize]);
                 let lfs = self.lfs(engine, segment, column.parameter(k)).max(floor);
                 if value > lfs {
                     excess = excess.max(value / lfs - 1.0);
@@ -251,7 +263,7 @@ impl Sent {
             }
         }
         // The quotient is rounded, and the chip's: some roundoffs of binary32.
-        Ok(excess + if excess > 0.0 { 1e-6 } else { 0.0 })
+        excess + if excess > 0.0 { 1e-6 } else { 0.0 }
     }
 
     /// Bytes that it may take, at most.
@@ -305,4 +317,56 @@ fn double(p: &Point<f32>) -> Point<f64> {
 /// A number of things in memory as an index.
 fn number(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::ModelOptions;
+
+    /// Divided by 1 + η, the chip's values are not above lfs at their places, so that its answers are not above lfs anywhere; and
+    /// with few foot points that takes an η.
+    #[test]
+    fn no_answer_of_the_chip_is_above_lfs() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../drawings/hook.svg");
+        let drawing = lineart::drawing::load(file).unwrap_or_else(|error| panic!("{error}"));
+        let options = ModelOptions {
+            steps: None,
+            tolerance: 0.001,
+            corner_angle: 1.0,
+            max_medial_points: 1 << 20,
+            threads: 1,
+            quiet: true,
+        };
+        let engine = Engine::new(&drawing, &options).unwrap_or_else(|error| panic!("{error:?}"));
+        let model = curve_of(&drawing, &engine).unwrap_or_else(|error| panic!("{error:?}"));
+        let floor = 0.005 * Engine::diagonal(&drawing);
+        let sent = Sent::new(&model, &engine, None, floor, Lfs::OnChip);
+        let mut all = Vec::new();
+        for foot_points in [2, 32] {
+            let values = sent.on_chip(foot_points).expect("room");
+            let eta = sent.excess(&engine, &values, floor);
+            let curve = sent.curve();
+            // How much more than lfs is answered, at five places a step.
+            let most = |share: f64| {
+                let table = LfsTable::new(&curve, &sent.columns, |k| values[k as usize] * rounded(share));
+                let mut most = 0.0_f64;
+                for (segment, column) in (0..).zip(&sent.columns) {
+                    let looks = 5 * (column.count - 1);
+                    for k in 0..=looks {
+                        let at = CurveParam { segment, t: rounded(f64::from(k) / f64::from(looks)) };
+                        let p = curve.point(&at).expect("a place");
+                        let lfs = engine.lfs(&double(&p)).max(floor);
+                        most = most.max(f64::from(table.lfs(&at, &p)) / lfs - 1.0);
+                    }
+                }
+                most
+            };
+            assert!(most(1.0 / (1.0 + eta)) <= 0.0, "{foot_points}: {eta}");
+            all.push((eta, most(1.0)));
+        }
+        let [(coarse, above), (fine, _)] = all[..] else { panic!("two") };
+        assert!(coarse > 0.01 && above > 0.01, "{all:?}");
+        assert!(fine < 0.01, "{all:?}");
+    }
 }

@@ -63,6 +63,24 @@ pub(crate) fn polygon(close: bool, corners: &[[f64; 2]]) -> Stroke {
     Stroke { closed: close, cubics }
 }
 
+/// Fans at open ends and corners, an acute corner, a crossing, a touching, a stroke drawn twice, a cusp, strokes that
+/// coincide along a stretch.
+pub(crate) fn difficult() -> Vec<(&'static str, Strokes)> {
+    let wave = cubic([[0.0, 0.0], [20.0, 40.0], [50.0, -30.0], [70.0, 10.0]]);
+    let cusp = cubic([[0.0, 0.0], [10.0, 10.0], [0.0, 10.0], [10.0, 0.0]]);
+    let right: Vec<_> = quarters(4.0, 0.0, 2.0, 2.0).into();
+    vec![
+        ("ellipse", vec![ellipse(0.0, 0.0, 8.0, 3.0)]),
+        ("wave and a stroke across", vec![open(vec![wave]), stick([0.0, 20.0], [60.0, -5.0])]),
+        ("zigzag", vec![polygon(false, &[[0.0, 0.0], [5.0, 8.0], [6.0, 0.0], [6.5, 9.0]])]),
+        ("square", vec![polygon(true, &[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])]),
+        ("touching circles", vec![ellipse(0.0, 0.0, 2.0, 2.0), closed(right)]),
+        ("twice", vec![open(vec![wave]), open(vec![wave.reversed()]), stick([0.0, 30.0], [60.0, 35.0])]),
+        ("cusp", vec![open(vec![cusp]), stick([-5.0, -5.0], [15.0, -4.0])]),
+        ("half a stroke again", vec![stick([0.0, 0.0], [10.0, 0.0]), stick([3.0, 0.0], [7.0, 0.0])]),
+    ]
+}
+
 /// An ellipse of four cubics from (cx + a, cy), through (cx, cy + b).
 pub(crate) fn ellipse(cx: f64, cy: f64, a: f64, b: f64) -> Stroke {
     closed(quarters(cx, cy, a, b).to_vec())

@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use crate::common::{Strokes, closed, cubic, curve_model, ellipse, open, polygon, quarters, stick};
+use crate::common::{Strokes, closed, cubic, curve_model, difficult, ellipse, open, stick};
 use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::SliceStore;
 use feature_sampling::curve::contact::Contact;
@@ -20,33 +20,21 @@ use feature_sampling::medial::{self, Foot, MedialPoint, Side};
 use feature_sampling::model::CurveModel;
 use feature_sampling::scalar::Scalar;
 
-/// Fans, an acute corner, a crossing, a touching, a stroke drawn twice in opposite directions, a cusp, a loop of one cubic, two
-/// paths that end in each other's ends, and nothing but a line, which has no medial axis.
+/// Difficult ones; and a loop of one cubic, strokes that end in each other's ends, a smooth path that is drawn twice, halves that
+/// run against each other, and nothing but a line, which has no medial axis.
 fn drawings() -> Vec<(&'static str, Strokes)> {
     let wave = cubic([[0.0, 0.0], [20.0, 40.0], [50.0, -30.0], [70.0, 10.0]]);
-    let cusp = cubic([[0.0, 0.0], [10.0, 10.0], [0.0, 10.0], [10.0, 0.0]]);
+    let (a, b) = wave.split_at(&0.375);
     let drop = cubic([[0.0, 0.0], [30.0, 20.0], [-30.0, 20.0], [0.0, 0.0]]);
-    let right: Vec<_> = quarters(4.0, 0.0, 2.0, 2.0).into();
-    vec![
-        ("ellipse", vec![ellipse(0.0, 0.0, 8.0, 3.0)]),
-        ("wave and a stroke across", vec![open(vec![wave]), stick([0.0, 20.0], [60.0, -5.0])]),
-        ("zigzag", vec![polygon(false, &[[0.0, 0.0], [5.0, 8.0], [6.0, 0.0], [6.5, 9.0]])]),
-        ("square", vec![polygon(true, &[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])]),
-        ("touching circles", vec![ellipse(0.0, 0.0, 2.0, 2.0), closed(right)]),
-        ("twice", vec![open(vec![wave]), open(vec![wave.reversed()]), stick([0.0, 30.0], [60.0, 35.0])]),
-        ("cusp", vec![open(vec![cusp]), stick([-5.0, -5.0], [15.0, -4.0])]),
+    let mut all = difficult();
+    all.extend([
         ("drop", vec![closed(vec![drop]), stick([-20.0, -5.0], [20.0, -6.0])]),
         ("star", vec![stick([0.0, 0.0], [9.0, 1.0]), stick([0.0, 0.0], [-5.0, 6.0]), stick([2.0, -7.0], [0.0, 0.0])]),
         ("line", vec![stick([0.0, 0.0], [10.0, 3.0])]),
-        ("smooth path twice", {
-            let (a, b) = wave.split_at(&0.375);
-            vec![open(vec![a, b]), open(vec![b.reversed(), a.reversed()])]
-        }),
-        ("halves that meet with their ends", {
-            let (a, b) = wave.split_at(&0.375);
-            vec![open(vec![a]), open(vec![b.reversed()])]
-        }),
-    ]
+        ("smooth path twice", vec![open(vec![a, b]), open(vec![b.reversed(), a.reversed()])]),
+        ("halves that meet with their ends", vec![open(vec![a]), open(vec![b.reversed()])]),
+    ]);
+    all
 }
 
 /// A curve that was received.

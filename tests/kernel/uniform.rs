@@ -1,29 +1,11 @@
 //! The walk with equal steps, one foot at a time: the same medial points whatever the budget, and no call hands out more of
 //! them than it may look at.
 
-use crate::common::{Strokes, closed, cubic, ellipse, open, polygon, quarters, stick};
+use crate::common::{difficult, ellipse};
 use feature_sampling::buffer::{BufferFull, Sink, SliceStore};
 use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::medial::uniform::{Progress, UniformWalk};
 use feature_sampling::medial::{self, MedialPoint, Resolution};
-
-/// Fans at open ends and corners, an acute corner, a crossing, a touching, a stroke drawn twice, a cusp, strokes that
-/// coincide along a stretch.
-fn drawings() -> Vec<(&'static str, Strokes)> {
-    let wave = cubic([[0.0, 0.0], [20.0, 40.0], [50.0, -30.0], [70.0, 10.0]]);
-    let cusp = cubic([[0.0, 0.0], [10.0, 10.0], [0.0, 10.0], [10.0, 0.0]]);
-    let right: Vec<_> = quarters(4.0, 0.0, 2.0, 2.0).into();
-    vec![
-        ("ellipse", vec![ellipse(0.0, 0.0, 8.0, 3.0)]),
-        ("wave and a stroke across", vec![open(vec![wave]), stick([0.0, 20.0], [60.0, -5.0])]),
-        ("zigzag", vec![polygon(false, &[[0.0, 0.0], [5.0, 8.0], [6.0, 0.0], [6.5, 9.0]])]),
-        ("square", vec![polygon(true, &[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])]),
-        ("touching circles", vec![ellipse(0.0, 0.0, 2.0, 2.0), closed(right)]),
-        ("twice", vec![open(vec![wave]), open(vec![wave.reversed()]), stick([0.0, 30.0], [60.0, 35.0])]),
-        ("cusp", vec![open(vec![cusp]), stick([-5.0, -5.0], [15.0, -4.0])]),
-        ("half a stroke again", vec![stick([0.0, 0.0], [10.0, 0.0]), stick([3.0, 0.0], [7.0, 0.0])]),
-    ]
-}
 
 /// Counts what a call hands out.
 struct Counted {
@@ -41,7 +23,7 @@ impl Sink<MedialPoint<f64>> for Counted {
 
 #[test]
 fn the_budget_changes_nothing() {
-    for (name, strokes) in drawings() {
+    for (name, strokes) in difficult() {
         let model = crate::common::curve_model(&strokes, &DoorOptions::default());
         let curve = model.curve();
         let relevance = medial::walk::relevance(&curve);

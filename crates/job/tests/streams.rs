@@ -127,34 +127,36 @@ fn places_and_cuts_are_read_as_written() {
     assert_eq!(read(&with_places()), Ok(expected));
 }
 
+/// What the encoder says of commands in a path, and the decoder of what came of them.
+fn write(commands: impl Fn(&mut Encoder<'_>) -> Result<(), JobError>) -> (Result<(), JobError>, Option<JobError>) {
+    let mut room = [0; 512];
+    let mut encoder = Encoder::new(&mut room, &options()).unwrap();
+    encoder.begin([0.0, 0.0], false).unwrap();
+    let refused = commands(&mut encoder);
+    let len = encoder.end().unwrap();
+    (refused, read(&room[..len]).err())
+}
+
 #[test]
 fn places_and_cuts_out_of_place_are_refused() {
-    let mut room = [0; 512];
-    let mut write = |commands: &dyn Fn(&mut Encoder<'_>) -> Result<(), JobError>| {
-        let mut encoder = Encoder::new(&mut room, &options()).unwrap();
-        encoder.begin([0.0, 0.0], false).unwrap();
-        let refused = commands(&mut encoder);
-        let len = encoder.end().unwrap();
-        (refused, read(&room[..len]).err())
-    };
     let order = (Ok(()), Some(JobError::Order));
-    assert_eq!(write(&|e| e.places([false; 2], 3)), order, "no curve before it");
+    assert_eq!(write(|e| e.places([false; 2], 3)), order, "no curve before it");
     let line = |e: &mut Encoder<'_>| e.line([1.0, 1.0]);
-    assert_eq!(write(&|e| line(e).and(e.places([false; 2], 3)).and(e.places([false; 2], 3))), order, "twice");
-    assert_eq!(write(&|e| line(e).and(e.cut(0.5))), order, "a cut of what has no arc");
-    assert_eq!(write(&|e| line(e).and(e.table([false; 2], &[1.0; 3])).and(e.cut(0.5))), order, "lfs came along");
+    assert_eq!(write(|e| line(e).and(e.places([false; 2], 3)).and(e.places([false; 2], 3))), order, "twice");
+    assert_eq!(write(|e| line(e).and(e.cut(0.5))), order, "a cut of what has no arc");
+    assert_eq!(write(|e| line(e).and(e.table([false; 2], &[1.0; 3])).and(e.cut(0.5))), order, "lfs came along");
     let cuts = |e: &mut Encoder<'_>, last: f32| {
         line(e)?;
         e.places([false; 2], 3)?;
         e.cut(0.5)?;
         e.cut(last)
     };
-    assert_eq!(write(&|e| cuts(e, 0.75)), (Ok(()), None));
-    assert_eq!(write(&|e| cuts(e, 0.5)), (Ok(()), Some(JobError::Range)), "not ascending");
-    assert_eq!(write(&|e| cuts(e, 1.0)), (Err(JobError::Range), None));
-    assert_eq!(write(&|e| cuts(e, f32::NAN)), (Err(JobError::Range), None));
+    assert_eq!(write(|e| cuts(e, 0.75)), (Ok(()), None));
+    assert_eq!(write(|e| cuts(e, 0.5)), (Ok(()), Some(JobError::Range)), "not ascending");
+    assert_eq!(write(|e| cuts(e, 1.0)), (Err(JobError::Range), None));
+    assert_eq!(write(|e| cuts(e, f32::NAN)), (Err(JobError::Range), None));
     for count in [0, 1, 1026] {
-        assert_eq!(write(&|e| line(e).and(e.places([false; 2], count))), (Err(JobError::Range), None));
+        assert_eq!(write(|e| line(e).and(e.places([false; 2], count))), (Err(JobError::Range), None));
     }
     // A cut beyond the cubic, and one that is no number, where the stream says so.
     let whole = with_places();
@@ -168,18 +170,10 @@ fn places_and_cuts_out_of_place_are_refused() {
 
 #[test]
 fn tables_out_of_place_are_refused() {
-    let mut room = [0; 512];
-    let mut write = |commands: &dyn Fn(&mut Encoder<'_>) -> Result<(), JobError>| {
-        let mut encoder = Encoder::new(&mut room, &options()).unwrap();
-        encoder.begin([0.0, 0.0], false).unwrap();
-        let refused = commands(&mut encoder);
-        let len = encoder.end().unwrap();
-        (refused, read(&room[..len]).err())
-    };
-    assert_eq!(write(&|e| e.table([false; 2], &[1.0; 3])), (Ok(()), Some(JobError::Order)), "no curve before it");
-    let twice = write(&|e| e.line([1.0, 1.0]).and(e.table([false; 2], &[1.0; 3])).and(e.table([false; 2], &[1.0; 3])));
+    assert_eq!(write(|e| e.table([false; 2], &[1.0; 3])), (Ok(()), Some(JobError::Order)), "no curve before it");
+    let twice = write(|e| e.line([1.0, 1.0]).and(e.table([false; 2], &[1.0; 3])).and(e.table([false; 2], &[1.0; 3])));
     assert_eq!(twice, (Ok(()), Some(JobError::Order)));
-    assert_eq!(write(&|e| e.line([1.0, 1.0]).and(e.table([false; 2], &[1.0]))), (Err(JobError::Range), None));
+    assert_eq!(write(|e| e.line([1.0, 1.0]).and(e.table([false; 2], &[1.0]))), (Err(JobError::Range), None));
     // One command of values too few: a line comes where a command 6 has to.
     let whole = with_lfs();
     let first = whole.windows(2).position(|w| w == [6, 64]).unwrap();

@@ -11,6 +11,9 @@ use feature_sampling::geometry::Point;
 use feature_sampling::lfs::table::Column;
 use fsample_job::{Command, Decoder, JobError, JobOptions};
 
+/// A command that has no place where it stands, or that is missing there.
+const ORDER: Fault = Fault::Job(JobError::Order);
+
 /// Who computes lfs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lfs {
@@ -80,7 +83,6 @@ pub fn read(bytes: impl Iterator<Item = u8>, memory: JobMemory<'_>, lfs: Lfs) ->
     let mut values = SliceStore::new(memory.values);
     let (mut decoder, mut options) = (Decoder::new(), None);
     let mut here = Point::new(0.0, 0.0);
-    const ORDER: Fault = Fault::Job(JobError::Order);
     for byte in bytes {
         let curve = match decoder.push(byte).map_err(Fault::Job)? {
             None => continue,

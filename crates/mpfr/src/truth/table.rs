@@ -185,6 +185,7 @@ pub const TABLE: &[Entry] = &[
     measured!("geometry::aabb::Aabb::distance_sq", a::box_distance_sq, "the result", [4.0, 4.0], MANY),
     exact("geometry::aabb::Aabb::empty", "no computation"),
     measured!("geometry::aabb::Aabb::extent", a::box_extent, "the result", [0.5, 0.5], MANY),
+    through("geometry::aabb::Aabb::gap_sq", "geometry::aabb::Aabb::distance_sq"),
     exact("geometry::aabb::Aabb::include", "comparisons"),
     exact("geometry::aabb::Aabb::merge", "comparisons"),
     exact("geometry::hierarchy::Hierarchy::bounds", "a copy"),

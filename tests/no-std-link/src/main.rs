@@ -9,7 +9,7 @@ use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::{Forget, SliceStore};
 use feature_sampling::curve::contact::{self, Contact};
 use feature_sampling::curve::door::{self, CurveBuffers, DoorOptions, PathInput};
-use feature_sampling::curve::{Arc, Path, Segment};
+use feature_sampling::curve::{ArcStart, Path, Segment};
 use feature_sampling::geometry::Point;
 use feature_sampling::geometry::hierarchy::{Item, Node, nodes_for};
 use feature_sampling::lfs::{self, LfsIndex, items_for};
@@ -40,7 +40,7 @@ fn circle() -> Result<usize, i32> {
         Cubic::new(p(0.0, -1.0), p(k, -1.0), p(1.0, -k), p(1.0, 0.0)),
     ];
     let (mut segments, mut paths) = ([Segment::<f32>::default(); 8], [Path::default(); 2]);
-    let (mut arcs, mut items) = ([Arc::<f32>::default(); ARCS], [Item::<f32>::default(); ARCS]);
+    let (mut arcs, mut items) = ([ArcStart::<f32>::default(); ARCS], [Item::<f32>::default(); ARCS]);
     let (mut nodes, mut order) = ([Node::<f32>::default(); nodes_for(ARCS)], [0_u32; 8]);
     let mut buffers = CurveBuffers {
         segments: SliceStore::new(&mut segments),

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::curve::door::{DoorOptions, DoorReport, sine_of_degrees};
-use feature_sampling::curve::{CurveParam, nearest};
+use feature_sampling::curve::{Curve, CurveParam, nearest};
 use feature_sampling::geometry::Point;
 use feature_sampling::medial::walk::relevance;
 use feature_sampling::medial::{MedialPoint, Resolution, Side};
@@ -117,9 +117,9 @@ impl<'d> Engine<'d> {
         self.medial.lfs(p)
     }
 
-    /// The turn from which a joint is a corner, in degrees.
-    pub(crate) const fn corner_angle(&self) -> f64 {
-        self.options.corner_angle
+    /// The curve C.
+    pub(crate) fn curve(&self) -> Curve<'_, f64> {
+        self.curve.curve()
     }
 
     /// The relative error of lfs that the medial axis was refined to.

@@ -1,7 +1,7 @@
 //! Jobs for a plotter's controller: a drawing as a `.fsj` stream.
 //!
-//! The host takes the drawing through the door, in f32, and sends the curve C, so that the chip needs no door; and it says at
-//! which places along C lfs is to be known: so many that what a table of lfs says between them is short by an eighth at most,
+//! The host takes the drawing through the door and sends the curve C, rounded to f32, so that the chip needs no door; and it says
+//! at which places along C lfs is to be known: so many that what a table of lfs says between them is short by an eighth at most,
 //! or lies below the floor.
 //!
 //! A chip that computes lfs does so in f32 from a fixed number of foot points a cubic. The host runs the same computation, to
@@ -13,7 +13,6 @@
 
 use feature_sampling::bezier::Cubic;
 use feature_sampling::buffer::BufferFull;
-use feature_sampling::curve::door::{DoorOptions, sine_of_degrees};
 use feature_sampling::curve::given::{self, Extent};
 use feature_sampling::curve::{ArcStart, Curve, CurveParam, JointKind, Path, Segment, arc, contact};
 use feature_sampling::geometry::Point;
@@ -22,7 +21,6 @@ use feature_sampling::lfs::FeatureSize;
 use feature_sampling::lfs::gather::Gather;
 use feature_sampling::lfs::table::{Column, LfsTable};
 use feature_sampling::medial::uniform::Progress;
-use feature_sampling::model::CurveModel;
 use fsample_job::{Encoder, JobError, JobOptions, LEAF, expand, reduce};
 use lineart::drawing::Drawing;
 use std::cell::Cell;
@@ -65,10 +63,9 @@ pub(crate) fn bytes(
     let foot_points = foot_points.ok_or_else(|| Failure::usage("a job takes --steps from 1 to 1024"))?;
     let min_distance = bounds.min_distance.unwrap_or(Engine::diagonal(drawing) / 1000.0);
     let floor = min_distance / epsilon;
-    let model = curve_of(drawing, engine)?;
     // `--steps` is the number of foot points, or that of values where there are no foot points.
     let places = steps.filter(|_| lfs == Lfs::Along);
-    let sent = Sent::new(&model, engine, places, floor, lfs);
+    let sent = Sent::new(engine, places, floor, lfs);
     let eta = match lfs {
         Lfs::OnChip => {
             let full = |_| Failure::limit(format!("{name}: more touchings than there is memory for"));
@@ -100,24 +97,20 @@ pub(crate) fn bytes(
     Ok(out)
 }
 
-/// The curve C of a drawing in binary32, as the chip will have it.
-fn curve_of(drawing: &Drawing, engine: &Engine<'_>) -> Result<CurveModel<f32>, Failure> {
-    let paths: Vec<(bool, Vec<Cubic<f32>>)> =
-        drawing.paths.iter().map(|path| (path.closed, path.cubics.iter().map(single).collect())).collect();
-    let input: Vec<(bool, &[Cubic<f32>])> = paths.iter().map(|(closed, cubics)| (*closed, cubics.as_slice())).collect();
-    let corner_sine = rounded(sine_of_degrees(&engine.corner_angle()));
-    let door = DoorOptions { corner_sine, ..DoorOptions::default() };
-    CurveModel::new(&input, &door).map_err(|error| Failure::input(&drawing.source, error))
-}
-
 /// Rounded to binary32.
 #[expect(clippy::cast_possible_truncation, reason = "the chip's numbers are binary32")]
 fn rounded(v: f64) -> f32 {
     v as f32
 }
 
+/// In binary32. What is a line of uniform speed remains one.
 fn single(cubic: &Cubic<f64>) -> Cubic<f32> {
-    Cubic { points: cubic.points.map(|p| Point::new(rounded(p.x), rounded(p.y))) }
+    let [start, a, b, end] = cubic.points.map(|p| Point::new(rounded(p.x), rounded(p.y)));
+    if *cubic == Cubic::line(*cubic.start(), *cubic.end()) {
+        Cubic::line(start, end)
+    } else {
+        Cubic::new(start, a, b, end)
+    }
 }
 
 /// What a chip gets: the curve C, the places along it, and what lfs is there.
@@ -136,17 +129,16 @@ const STEPS: [u32; 2] = [4, 1024];
 
 impl Sent {
     /// The curve as the chip will have it, and its table: `steps` values a segment, or as many as it takes.
-    fn new(model: &CurveModel<f32>, engine: &Engine<'_>, steps: Option<u32>, floor: f64, lfs: Lfs) -> Self {
-        let (mut segments, mut paths, mut arcs) = (Vec::new(), Vec::new(), Vec::new());
-        for (index, path) in (0_u32..).zip(model.curve().paths) {
-            let first = segments.len();
-            let own = model.curve().segments.iter().skip(path.first as usize).take(path.count as usize);
-            let mut here = None;
-            for s in own {
-                // As the stream has it: a cubic starts where the one before it ends.
-                let mut cubic = s.cubic;
-                cubic.points[0] = here.unwrap_or(cubic.points[0]);
-                here = Some(cubic.points[3]);
+    fn new(engine: &Engine<'_>, steps: Option<u32>, floor: f64, lfs: Lfs) -> Self {
+        let (mut segments, mut paths, mut arcs) = (Vec::new(), Vec::<Path>::new(), Vec::new());
+        let curve = engine.curve();
+        for path in curve.paths {
+            let (first, index) = (segments.len(), number(paths.len()));
+            let own = curve.segments.iter().skip(path.first as usize).take(path.count as usize);
+            // What is a point in binary32 is no segment; its ends, and its neighbours', are equal.
+            for (s, cubic) in
+                own.map(|s| (s, single(&s.cubic))).filter(|(_, c)| c.points.iter().any(|p| p != c.start()))
+            {
                 let corners = [0, 1].map(|side| s.end(side).kind == JointKind::Corner);
                 segments.push(given::segment(number(segments.len()), index, cubic, corners));
                 if lfs == Lfs::OnChip {
@@ -154,7 +146,10 @@ impl Sent {
                     cut(&mut segments, &mut arcs);
                 }
             }
-            paths.push(Path { source: index, first: number(first), ..*path });
+            let count = segments.len() - first;
+            if count > 0 {
+                paths.push(Path { source: index, first: number(first), count: number(count), ..*path });
+            }
         }
         let extent = Extent::of(&segments);
         let mut nodes = Vec::new();
@@ -175,13 +170,17 @@ impl Sent {
             if let Some(steps) = steps {
                 few = steps;
             }
-            loop {
+            let mut try_with = |steps: u32| {
                 sent.values.truncate(first);
-                sent.fill(engine, index, few);
-                if steps.is_some() || few >= most || sent.is_close(engine, index, floor) {
-                    break;
-                }
+                sent.fill(engine, index, steps);
+                sent.is_close(engine, index, floor)
+            };
+            while !try_with(few) && steps.is_none() && few < most {
                 few *= 2;
+            }
+            // Between that and half as many.
+            if steps.is_none() && few > STEPS[0] && !(5..8).any(|eighths| try_with(few / 8 * eighths + few % 8)) {
+                try_with(few);
             }
         }
         sent
@@ -281,7 +280,11 @@ impl Sent {
                 if k == 0 {
                     encoder.begin([start.x, start.y], path.closed)?;
                 }
-                encoder.cubic([a.x, a.y, b.x, b.y, c.x, c.y])?;
+                if segment.cubic == Cubic::line(*start, *c) {
+                    encoder.line([c.x, c.y])?;
+                } else {
+                    encoder.cubic([a.x, a.y, b.x, b.y, c.x, c.y])?;
+                }
                 let corners = [0, 1].map(|side| segment.end(side).kind == JointKind::Corner);
                 if lfs == Lfs::OnChip {
                     encoder.places(corners, u16::try_from(column.count).unwrap_or(u16::MAX))?;
@@ -339,9 +342,8 @@ mod tests {
             quiet: true,
         };
         let engine = Engine::new(&drawing, &options).unwrap_or_else(|error| panic!("{error:?}"));
-        let model = curve_of(&drawing, &engine).unwrap_or_else(|error| panic!("{error:?}"));
         let floor = 0.005 * Engine::diagonal(&drawing);
-        let sent = Sent::new(&model, &engine, None, floor, Lfs::OnChip);
+        let sent = Sent::new(&engine, None, floor, Lfs::OnChip);
         let mut all = Vec::new();
         for foot_points in [2, 32] {
             let values = sent.on_chip(foot_points).expect("room");

@@ -30,7 +30,7 @@ use fsample_planner::{Limits, MotorStep, PlanError, Planner};
 /// Cubics that a job may have: those of the curve that its host's door made.
 pub const CUBICS: usize = 200;
 /// Paths that a job may have.
-pub const PATHS: usize = 48;
+pub const PATHS: usize = 72;
 /// Arcs.
 pub const ARCS: usize = 6 * CUBICS;
 /// Leaves of the hierarchy over the arcs.
@@ -38,9 +38,9 @@ pub const LEAVES: usize = ARCS.div_ceil(LEAF as usize);
 /// Its nodes.
 pub const NODES: usize = nodes_for(LEAVES);
 /// Places where the job touches itself.
-pub const CONTACTS: usize = 96;
+pub const CONTACTS: usize = 160;
 /// Places along the job's cubics where lfs is known.
-pub const VALUES: usize = 24 * CUBICS;
+pub const VALUES: usize = 20 * CUBICS;
 
 /// Ticks a second of the timer that times motor steps.
 pub const CLOCK: f32 = 84_000_000.0;

@@ -191,7 +191,7 @@ fn what_is_no_curve_is_a_fault() {
         e.begin([0.0, 0.0], false)?;
         (1..=count).try_for_each(|k| {
             e.line([f32::from(k), f32::from(k % 2)])?;
-            e.places([true; 2], 24)
+            e.places([true; 2], 20)
         })
     };
     assert!(run(&|e| lines(e, 200)).is_ok_and(|samples| samples > 200));

@@ -133,18 +133,23 @@ impl<'c, S: Scalar> Trail<'c, S> {
         Station { at: foot.at, foot: foot.point, direction: foot.direction, side: foot.side, radius, centre, touch }
     }
 
-    /// Looks at the normal to one side of a place. At a retracted end the curvature is unbounded on one side: there the
-    /// medial axis runs into the curve.
-    pub(super) fn side_station(&mut self, at: CurveParam<S>, side: Side) -> Option<Station<S>> {
-        let segment = self.curve.segment(at.segment)?;
+    /// At a retracted end the curvature is unbounded on one side: there the medial axis runs into the curve.
+    pub(super) fn runs_in(&self, at: &CurveParam<S>, side: Side) -> bool {
+        let Some(segment) = self.curve.segment(at.segment) else { return false };
         let end = usize::from(at.t > S::zero());
-        if (at.t <= S::zero() || at.t >= S::one()) && segment.end(end).retracted {
-            // B' vanishes: B'×B'' is 6v² times the product of the next two Taylor coefficients, on either side of the end.
-            let [_, b2, b3] = segment.power.taylor(&at.t);
-            let bend = b2.cross(&b3);
-            if (bend > S::zero()) == (side == Side::Left) && !bend.is_zero() {
-                return self.on_curve(at);
-            }
+        if (at.t > S::zero() && at.t < S::one()) || !segment.end(end).retracted {
+            return false;
+        }
+        // B' vanishes: B'×B'' is 6v² times the product of the next two Taylor coefficients, on either side of the end.
+        let [_, b2, b3] = segment.power.taylor(&at.t);
+        let bend = b2.cross(&b3);
+        (bend > S::zero()) == (side == Side::Left) && !bend.is_zero()
+    }
+
+    /// Looks at the normal to one side of a place, where the medial axis does not run into the curve.
+    pub(super) fn side_station(&mut self, at: CurveParam<S>, side: Side) -> Option<Station<S>> {
+        if self.runs_in(&at, side) {
+            return self.on_curve(at);
         }
         let foot = Foot::on_obstacle(self.curve, at, side)?;
         Some(self.station(foot))

@@ -207,8 +207,10 @@ impl<'c, S: Scalar> UniformWalk<'c, S> {
             return Ok(Stage::Joint);
         }
         let t = if self.forwards() { S::zero() } else { S::one() };
-        if !self.trail.joined
-            && let Some(here) = self.trail.side_station(self.at(t.clone()), self.side)
+        let at = self.at(t.clone());
+        // A fan that comes to this normal does not come to the curve.
+        if (!self.trail.joined || self.trail.runs_in(&at, self.side))
+            && let Some(here) = self.trail.side_station(at, self.side)
         {
             self.trail.emit(&here, out)?;
         }

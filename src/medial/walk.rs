@@ -183,7 +183,8 @@ impl<S: Scalar, Out: Sink<MedialPoint<S>>> Walker<'_, '_, S, Out> {
         let Some(mut here) = self.trail.side_station(CurveParam { segment: index, t: start_t }, side) else {
             return Ok(());
         };
-        if !self.trail.joined {
+        // A fan that comes to this normal does not come to the curve.
+        if !self.trail.joined || here.side == Side::Corner {
             self.trail.emit(&here, self.out)?;
         }
         let (first, count) = segment.arcs;

@@ -1,7 +1,7 @@
 //! The walk with equal steps, one foot at a time: the same medial points whatever the budget, and no call hands out more of
 //! them than it may look at.
 
-use crate::common::{difficult, ellipse};
+use crate::common::{cubic, difficult, ellipse, open, polygon};
 use feature_sampling::buffer::{BufferFull, Sink, SliceStore};
 use feature_sampling::curve::door::DoorOptions;
 use feature_sampling::medial::uniform::{Progress, UniformWalk};
@@ -55,6 +55,29 @@ fn the_budget_changes_nothing() {
                 assert_eq!(out.points, whole, "{name}, {steps} steps");
             }
         }
+    }
+}
+
+/// At a retracted end the curvature is unbounded on one side, and the medial axis runs into the curve there, also where the fan of
+/// the end comes to that side's normal with a large disk. (A sketch of a cat: lfs at the end of a stroke came out as 9 instead of 0.)
+#[test]
+fn the_axis_runs_into_a_retracted_end_behind_a_fan() {
+    let stroke = cubic([[145.5, 269.15], [156.83, 280.48], [190.8, 312.19], [190.8, 312.19]]);
+    // All disks of the fan are small.
+    let frame = polygon(true, &[[130.0, 250.0], [210.0, 250.0], [210.0, 330.0], [130.0, 330.0]]);
+    for (stroke, t) in [(stroke, 1.0), (stroke.reversed(), 0.0)] {
+        let model = crate::common::curve_model(&[open(vec![stroke]), frame.clone()], &DoorOptions::default());
+        let curve = model.curve();
+        let relevance = medial::walk::relevance(&curve);
+        let on_curve = |m: &MedialPoint<f64>| m.at.segment == 0 && m.at.t == t && m.radius == 0.0;
+        for steps in [1, 8, 32] {
+            let points = model.walk(0, &Resolution::Steps(steps), &relevance);
+            assert!(points.iter().any(on_curve), "{steps} steps");
+            let lines = |m: &MedialPoint<f64>| points.iter().filter(|p| p.polyline == m.polyline).count();
+            assert!(points.iter().filter(|m| on_curve(m)).all(|m| lines(m) > 1), "an edge leads to it");
+        }
+        let points = model.walk(0, &Resolution::Tolerance(0.05), &relevance);
+        assert!(points.iter().any(on_curve), "refined");
     }
 }
 
